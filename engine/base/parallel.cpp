@@ -1,0 +1,50 @@
+#include "engine/base/parallel.h"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <pmmintrin.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <thread>
+#include <xmmintrin.h>
+
+namespace atrium {
+namespace {
+std::mutex limit_mutex; // guards the two below
+std::unique_ptr<tbb::global_control> limit_control;
+unsigned limit_value = 0;
+} // namespace
+
+void set_thread_limit(unsigned threads) {
+    const std::lock_guard lock(limit_mutex);
+    limit_control.reset();
+    limit_value = threads;
+    if (threads != 0) {
+        limit_control =
+            std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
+    }
+}
+
+unsigned thread_limit() {
+    const std::lock_guard lock(limit_mutex);
+    return limit_value != 0 ? limit_value : std::max(1U, std::thread::hardware_concurrency());
+}
+
+void parallel_chunks(std::size_t count, std::size_t grain,
+                     const std::function<void(std::size_t, std::size_t, std::size_t)>& body) {
+    if (count == 0) {
+        return;
+    }
+    const std::size_t chunks = chunk_count(count, grain);
+    tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t chunk) {
+        // Worker threads belong to TBB, so the mode is set per chunk (two instructions) and put back after it.
+        const unsigned saved = _mm_getcsr();
+        _mm_setcsr(saved | _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON);
+        const std::size_t begin = chunk * grain;
+        body(begin, std::min(begin + grain, count), chunk);
+        _mm_setcsr(saved);
+    });
+}
+
+} // namespace atrium

@@ -1,0 +1,85 @@
+// Rays against the scene's triangles. Embree is included by ray_scene.cpp and nowhere else.
+#pragma once
+
+#include "engine/base/units.h"
+#include "engine/scene/scene.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace atrium {
+
+/// One shown (node, part) as triangles in engine coordinates (world minus the scene's origin, float).
+struct RaySurface {
+    NodeId node;
+    std::uint32_t part = 0;
+    MaterialId material;                  ///< none = default material
+    std::shared_ptr<const MeshData> mesh; ///< local coordinates
+    std::uint32_t first_index = 0;        ///< triangles of the part in mesh->indices
+    std::uint32_t index_count = 0;
+    dmat4 to_engine{1.0};     ///< local to engine coordinates
+    dmat3 normal_matrix{1.0}; ///< inverse transpose of its linear part
+    bool mirrored = false;    ///< negative determinant: winding (and so the front side) is flipped back
+};
+
+struct Ray {
+    vec3 origin{0.0F};
+    vec3 direction{0.0F, 0.0F, 1.0F}; ///< unit
+    float tmax = std::numeric_limits<float>::infinity();
+};
+
+/// Nearest intersection.
+struct Hit {
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+    std::uint32_t surface = kNone; ///< index into RayScene::surfaces()
+    std::uint32_t triangle = 0;    ///< within the surface
+    float t = 0.0F;
+    vec2 barycentric{0.0F};      ///< weights of the triangle's vertices 1 and 2
+    vec3 geometric_normal{0.0F}; ///< unit, on the surface's front side
+    bool front = true;           ///< the ray met the front side
+    explicit operator bool() const { return surface != kNone; }
+};
+
+/// Immutable once built; every query is safe from any thread. Coordinates are engine coordinates: see origin().
+class RayScene {
+public:
+    /// Builds from the shown nodes of `scene`. Degenerate and non-finite triangles are left out and counted.
+    explicit RayScene(const Scene& scene);
+    ~RayScene();
+    RayScene(const RayScene&) = delete;
+    RayScene& operator=(const RayScene&) = delete;
+
+    [[nodiscard]] const std::vector<RaySurface>& surfaces() const;
+    /// World position of engine (0,0,0): the centre of the scene's bounds, rounded to whole metres.
+    [[nodiscard]] dvec3 origin() const;
+    [[nodiscard]] Box3 bounds() const; ///< engine coordinates
+    [[nodiscard]] std::size_t triangle_count() const;
+    [[nodiscard]] std::size_t dropped_triangles() const;
+    [[nodiscard]] std::size_t memory_bytes() const;  ///< of Embree's structures, as Embree reports them
+    [[nodiscard]] std::uint64_t rays_traced() const; ///< so far, all queries
+
+    /// Nearest hit of surfaces that a mirror, lens or camera ray can meet (alpha cut-outs are passed through).
+    [[nodiscard]] Hit nearest(const Ray& ray) const;
+    /// True when anything opaque lies strictly between two points (cut-outs pass, glass passes). Both ends are pulled in by
+    /// a length proportional to the rounding error there, so that the surfaces they lie on do not count.
+    [[nodiscard]] bool occluded(const vec3& from, const vec3& to) const;
+    /// Share of light that goes straight from one point to the other: 0 behind opaque surfaces, 1 in the open, else the
+    /// product of the transmittances of the glass panes crossed (not bent: refraction is the particles' business).
+    [[nodiscard]] Rgb transmittance(const vec3& from, const vec3& to) const;
+    /// The same along a ray that never ends (sun, sky).
+    [[nodiscard]] Rgb transmittance_to_infinity(const vec3& from, const vec3& direction) const;
+
+    /// Vertices of a triangle in engine coordinates, counter-clockwise seen from the front side.
+    void triangle(std::uint32_t surface, std::uint32_t triangle, vec3 out[3]) const;
+    /// Interpolated texture coordinates of a hit (set 0 or 1); zero where the mesh has none.
+    [[nodiscard]] vec2 texcoord(const Hit& hit, int set) const;
+    /// Interpolated shading normal in engine coordinates, on the front side, unit.
+    [[nodiscard]] vec3 shading_normal(const Hit& hit) const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace atrium

@@ -1,0 +1,58 @@
+// The job queue: the editor and atrium-cli post edits, an engine thread answers with Solutions.
+#pragma once
+
+#include "engine/scene/scene_edit.h"
+#include "engine/solver/solution.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace atrium {
+
+/// What the engine thread is doing; a copy, taken by status() from any thread.
+struct SessionStatus {
+    enum class State : std::uint8_t { Idle, Solving, Stopped, Failed };
+    State state = State::Idle;
+    std::uint64_t posted_revision = 0; ///< newest edit in the mailbox or applied
+    std::uint64_t shown_revision = 0;  ///< of latest(); lower = the picture is stale
+    std::string phase;                 ///< "visibility", "layers", ...; empty when idle
+    double fraction = 0;               ///< 0 to 1
+    double elapsed_seconds = 0;
+    double remaining_seconds = -1; ///< estimate; negative = not known yet
+    std::string message;           ///< of a failure
+};
+
+/// Owns the engine thread and its own copy of the scene. All public functions are safe from any thread and never block on
+/// engine work (the destructor asks to stop and waits for the next stop point).
+class EngineSession {
+public:
+    /// `wake` is called from the engine thread whenever status() or latest() has news; it must not block. The UI posts
+    /// itself one queued event from it.
+    explicit EngineSession(std::function<void()> wake);
+    ~EngineSession();
+    EngineSession(const EngineSession&) = delete;
+    EngineSession& operator=(const EngineSession&) = delete;
+
+    /// Starts over with another document. `stored` (may be null) is shown at once; with it nothing is solved until an edit.
+    void load(Scene scene, std::uint64_t revision, std::shared_ptr<const Solution> stored);
+    /// Posts one edit of the document, already applied there. Never blocks, never refuses; a newer placement replaces a
+    /// pending one (supersedes()). While `in_gesture` a running solve goes on; the first edit after it (or 200 ms of rest)
+    /// stops the stale solve and starts the next.
+    void post(const SceneEdit& edit, std::uint64_t revision, bool in_gesture);
+    /// Ends a gesture: what was collected may be solved now.
+    void end_gesture();
+    /// Stops the running solve; the last picture stays. The next edit or resume() starts again.
+    void cancel();
+    /// Solves the present scene if latest() is not its final solution.
+    void resume();
+
+    [[nodiscard]] std::shared_ptr<const Solution> latest() const; ///< may be null
+    [[nodiscard]] SessionStatus status() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace atrium

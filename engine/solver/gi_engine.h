@@ -1,0 +1,56 @@
+// The engine's facade: a scene in, a Solution out. Runs on the calling thread plus workers; knows nothing of queues.
+#pragma once
+
+#include "engine/base/result.h"
+#include "engine/base/run_context.h"
+#include "engine/solver/solution.h"
+
+#include <functional>
+#include <memory>
+
+namespace atrium {
+
+struct SolveOptions {
+    SolverSettings::Quality quality = SolverSettings::Quality::Normal;
+    std::uint32_t seed = 1;
+    double target_error = 0; ///< relative; 0 = what the quality stands for
+    std::uint64_t revision = 0;
+};
+
+/// Irradiance at a free sensor, lux, with the program's own estimate of its standard error.
+struct SensorReading {
+    Rgb irradiance{0.0F};
+    double standard_error = 0; ///< of E, lux
+    bool on_surface = false;
+};
+
+/// Keeps what a solved scene needs for further questions (ray scene, hierarchy). One engine thread at a time.
+class GiEngine {
+public:
+    GiEngine();
+    ~GiEngine();
+    GiEngine(GiEngine&&) noexcept;
+    GiEngine& operator=(GiEngine&&) noexcept;
+
+    /// Phases in order: ray_scene, hierarchy, links, gather, layers. `on_snapshot` gets every picture worth showing, the
+    /// last one with final = true. Stopped by context.stop or its deadline: returns the last snapshot (final = false,
+    /// statistics.converged = false), or an error "stopped before the first picture". Stop points: every chunk of 64
+    /// elements or 256 vertices (a few milliseconds).
+    Result<std::shared_ptr<const Solution>>
+    solve(const Scene& scene, const SolveOptions& options, const RunContext& context,
+          const std::function<void(std::shared_ptr<const Solution>)>& on_snapshot = {});
+
+    /// Irradiance on a virtual sensor at a world point with unit normal, from the hierarchy of the last solve.
+    [[nodiscard]] SensorReading gather_free(const dvec3& point, const dvec3& normal) const;
+    [[nodiscard]] bool has_solution() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Irradiance read from a solution's own layers at a world point: the diffuse surface within 1 cm that faces the same way
+/// as `normal`; on_surface = false when there is none.
+SensorReading read_surface(const Scene& scene, const Solution& solution, const dvec3& point, const dvec3& normal);
+
+} // namespace atrium

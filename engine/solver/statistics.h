@@ -1,0 +1,46 @@
+// The figures of CONTRACTS' `--stats`, filled by the engine; written as JSON by atrium-cli.
+#pragma once
+
+#include "engine/scene/features.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace atrium {
+
+/// Times in seconds of wall clock, sizes in bytes. What was not used is zero.
+struct Statistics {
+    struct Phase {
+        std::string name;
+        double seconds = 0;
+        double share = 0; ///< of time.solve
+    };
+    std::vector<Feature> features;
+    struct {
+        double load = 0, build = 0, solve = 0, first_picture = 0, total = 0;
+    } time;
+    std::vector<Phase> phases;
+    unsigned threads = 0;
+    std::uint32_t seed = 0;
+    std::string mode = "default";
+    std::string quality = "normal";
+    int iterations = 0;
+    bool converged = false;
+    double residual = 0;       ///< relative, of the linear system on the final links
+    double error_estimate = 0; ///< relative standard error of irradiance, area weighted
+    std::uint64_t triangles = 0, elements = 0, clusters = 0, links = 0, rays = 0;
+    std::uint64_t particles_emitted = 0, particles_stored = 0;
+    struct {
+        std::uint64_t elements = 0, links = 0, particles = 0, octree = 0, caustic_textures = 0, layers = 0, ray_scene = 0,
+                      peak_rss = 0;
+    } memory;
+    struct {
+        double emitted = 0, absorbed = 0, escaped = 0, defect = 0; ///< lumen; defect = 1 - (absorbed + escaped) / emitted
+    } energy;
+};
+
+/// Highest resident set of this process so far, bytes.
+std::uint64_t peak_resident_bytes();
+
+} // namespace atrium

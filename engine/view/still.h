@@ -1,0 +1,31 @@
+// Stills from a solution: camera rays, mirrors and glass followed to the first diffuse surface, whose layer is read.
+#pragma once
+
+#include "engine/base/result.h"
+#include "engine/base/run_context.h"
+#include "engine/io/image_file.h"
+#include "engine/solver/solution.h"
+
+namespace atrium {
+
+/// A camera placed in the world.
+struct ViewCamera {
+    dmat4 to_world{1.0}; ///< looks along its -z, +y up
+    Camera lens;
+};
+/// Camera of the scene by name or index in tree order; without one (or with an empty name and none in the file) a view
+/// from inside the room: from a corner of the largest shown volume at eye height towards the centre.
+Result<ViewCamera> find_camera(const Scene& scene, const std::string& name_or_index);
+ViewCamera default_camera(const Scene& scene);
+
+struct StillOptions {
+    int width = 1280;
+    int height = 720;
+    int samples_per_axis = 2; ///< anti-aliasing: n x n stratified samples a pixel
+    int max_specular_depth = 12;
+};
+/// Linear radiance picture, cd/m2. Deterministic. Stops with what it has (rest black) when the context says so.
+Picture render_still(const Scene& scene, const Solution& solution, const ViewCamera& camera, const StillOptions& options,
+                     const RunContext& context);
+
+} // namespace atrium

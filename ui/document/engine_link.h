@@ -1,0 +1,40 @@
+// Between the document and the engine's job queue: posts edits, brings solutions back to the UI thread.
+#pragma once
+
+#include "engine/session/engine_session.h"
+#include "ui/document/document.h"
+
+#include <QObject>
+
+#include <atomic>
+#include <memory>
+
+namespace atrium::ui {
+
+/// UI thread only. Owns the EngineSession; at most one queued event is in flight from the engine thread.
+class EngineLink : public QObject {
+    Q_OBJECT
+public:
+    explicit EngineLink(Document& document, QObject* parent = nullptr);
+    ~EngineLink() override;
+
+    [[nodiscard]] std::shared_ptr<const Solution> solution() const; ///< newest; may be null or stale
+    [[nodiscard]] SessionStatus status() const;
+    [[nodiscard]] bool stale() const;                  ///< the picture is older than the document's light
+    void load(std::shared_ptr<const Solution> stored); ///< after Document::reset
+    void cancel();
+    void resume();
+
+Q_SIGNALS:
+    void solution_changed();
+    void status_changed();
+
+private:
+    void on_wake();
+    Document& document_;
+    std::atomic<bool> wake_queued_{false};
+    std::shared_ptr<const Solution> shown_;
+    std::unique_ptr<EngineSession> session_;
+};
+
+} // namespace atrium::ui

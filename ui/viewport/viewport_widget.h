@@ -1,0 +1,60 @@
+// The OpenGL viewport: thin. Camera, picking, drawing and tools live in their own classes beside it.
+#pragma once
+
+#include "engine/view/still.h"
+#include "ui/document/document.h"
+#include "ui/document/engine_link.h"
+
+#include <QOpenGLWidget>
+
+#include <memory>
+
+namespace atrium::ui {
+
+/// Which tool the left button drives.
+enum class ToolKind : std::uint8_t { Select, Move, Rotate, Scale };
+
+/// UI thread only.
+class ViewportWidget : public QOpenGLWidget {
+    Q_OBJECT
+public:
+    ViewportWidget(Document& document, EngineLink& engine, QWidget* parent = nullptr);
+    ~ViewportWidget() override;
+
+    void set_tool(ToolKind tool);
+    [[nodiscard]] ToolKind tool() const;
+    void frame_selection(); ///< or everything when nothing is selected
+    void frame_all();
+    void set_walk_mode(bool on); ///< WASD and mouse look, eye at 1.6 m above the floor below; Esc leaves
+    [[nodiscard]] bool walk_mode() const;
+    void set_exposure(float ev); ///< stops, added to automatic exposure; never reaches the solver
+    [[nodiscard]] float exposure() const;
+    void set_wireframe(bool on);             ///< the display mesh's edges over the picture
+    [[nodiscard]] ViewCamera camera() const; ///< as seen now, for "export picture"
+    void set_camera(const ViewCamera& camera);
+    /// Point on the floor or nearest surface in the middle of the view: where new objects are placed, world metres.
+    [[nodiscard]] dvec3 placement_point() const;
+
+Q_SIGNALS:
+    void tool_changed(atrium::ui::ToolKind tool);
+    void walk_mode_changed(bool on);
+    void message(const QString& text); ///< for the status bar: drag read-outs ("x +0.25 m"), hints
+
+protected:
+    void initializeGL() override;
+    void paintGL() override;
+    void resizeGL(int width, int height) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
+    void wheelEvent(QWheelEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    void keyReleaseEvent(QKeyEvent* event) override;
+    void focusOutEvent(QFocusEvent* event) override;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace atrium::ui
