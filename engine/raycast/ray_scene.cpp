@@ -188,10 +188,10 @@ struct RayScene::Impl {
         }
     }
 
-    static void fill(RTCRay& ray, const vec3& origin, const vec3& direction, float tnear, float tfar, unsigned mask) {
-        ray.org_x = origin.x;
-        ray.org_y = origin.y;
-        ray.org_z = origin.z;
+    static void fill(RTCRay& ray, const vec3& from, const vec3& direction, float tnear, float tfar, unsigned mask) {
+        ray.org_x = from.x;
+        ray.org_y = from.y;
+        ray.org_z = from.z;
         ray.dir_x = direction.x;
         ray.dir_y = direction.y;
         ray.dir_z = direction.z;
@@ -203,22 +203,22 @@ struct RayScene::Impl {
         ray.flags = 0;
     }
 
-    bool blocked(const vec3& origin, const vec3& direction, float tnear, float tfar, unsigned mask) {
+    bool blocked(const vec3& from, const vec3& direction, float tnear, float tfar, unsigned mask) {
         count_ray();
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         RTCRay ray;
-        fill(ray, origin, direction, tnear, tfar, mask);
+        fill(ray, from, direction, tnear, tfar, mask);
         rtcOccluded1(embree, &context, &ray);
         return ray.tfar < 0.0F;
     }
 
-    Hit hit(const vec3& origin, const vec3& direction, float tnear, float tfar, unsigned mask) {
+    Hit hit(const vec3& from, const vec3& direction, float tnear, float tfar, unsigned mask) {
         count_ray();
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         RTCRayHit query;
-        fill(query.ray, origin, direction, tnear, tfar, mask);
+        fill(query.ray, from, direction, tnear, tfar, mask);
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
         rtcIntersect1(embree, &context, &query);
@@ -254,8 +254,8 @@ struct RayScene::Impl {
         return through;
     }
 
-    Rgb transmit(const RayScene& self, const vec3& origin, const vec3& direction, float tnear, float tfar) {
-        if (blocked(origin, direction, tnear, tfar, kOpaqueMask)) {
+    Rgb transmit(const RayScene& self, const vec3& from, const vec3& direction, float tnear, float tfar) {
+        if (blocked(from, direction, tnear, tfar, kOpaqueMask)) {
             return Rgb(0.0F);
         }
         Rgb through(1.0F);
@@ -263,7 +263,7 @@ struct RayScene::Impl {
             return through;
         }
         for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
-            const Hit h = hit(origin, direction, tnear, tfar, kFilterMask);
+            const Hit h = hit(from, direction, tnear, tfar, kFilterMask);
             if (!h) {
                 return through;
             }
