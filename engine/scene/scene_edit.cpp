@@ -214,6 +214,7 @@ Result<SceneEdit> apply_one(Scene& scene, const AddNode& edit) {
     }
     Node node = edit.node;
     node.transform = *transform;
+    node.parent = node.parent ? node.parent : NodeId{}; // every way to write "none" becomes one
     ATRIUM_CHECK(scene.nodes.restore(edit.id, std::move(node)));
     insert_child(siblings_below(scene, edit.node.parent), edit.id, edit.index);
     return SceneEdit{RemoveNode{edit.id}};
@@ -265,7 +266,7 @@ Result<SceneEdit> apply_one(Scene& scene, const SetParent& edit) {
             return fail("", where, "it cannot be moved below " + node_label(scene, edit.parent) + ", which is part of it");
         }
     }
-    const NodeId old_parent = std::exchange(node->parent, edit.parent);
+    const NodeId old_parent = std::exchange(node->parent, edit.parent ? edit.parent : NodeId{});
     const std::size_t old_index = take_child(siblings_below(scene, old_parent), edit.id);
     insert_child(siblings_below(scene, edit.parent), edit.id, edit.index);
     return SceneEdit{SetParent{edit.id, old_parent, old_index}};
