@@ -54,7 +54,7 @@ public:
         }
         v.resize(count);
         if (count > 0) {
-            std::memcpy(v.data(), bytes_.data() + at_, count * sizeof(T));
+            std::memcpy(static_cast<void*>(v.data()), bytes_.data() + at_, count * sizeof(T));
         }
         at_ += count * sizeof(T);
         return true;
