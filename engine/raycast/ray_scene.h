@@ -4,6 +4,7 @@
 #include "engine/base/units.h"
 #include "engine/scene/scene.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -14,13 +15,14 @@ namespace atrium {
 struct RaySurface {
     NodeId node;
     std::uint32_t part = 0;
-    MaterialId material;                  ///< none = default material
-    std::shared_ptr<const MeshData> mesh; ///< local coordinates
-    std::uint32_t first_index = 0;        ///< triangles of the part in mesh->indices
-    std::uint32_t index_count = 0;
-    dmat4 to_engine{1.0};     ///< local to engine coordinates
-    dmat3 normal_matrix{1.0}; ///< inverse transpose of its linear part
-    bool mirrored = false;    ///< negative determinant: winding (and so the front side) is flipped back
+    MaterialId material;                                ///< none = default material
+    std::shared_ptr<const MeshData> mesh;               ///< local coordinates
+    std::shared_ptr<const std::vector<vec3>> positions; ///< mesh->positions in engine coordinates, shared by parts
+    std::vector<uvec3> triangles; ///< vertex indices, counter-clockwise from the front; degenerate ones are left out
+    bool back_side = false;       ///< the back reflects: double-sided material on a mesh that bounds no solid
+    dmat4 to_engine{1.0};         ///< local to engine coordinates
+    dmat3 normal_matrix{1.0};     ///< inverse transpose of its linear part
+    bool mirrored = false;        ///< negative determinant: winding (and so the front side) is flipped back
 };
 
 struct Ray {
@@ -44,7 +46,8 @@ struct Hit {
 /// Immutable once built; every query is safe from any thread. Coordinates are engine coordinates: see origin().
 class RayScene {
 public:
-    /// Builds from the shown nodes of `scene`. Degenerate and non-finite triangles are left out and counted.
+    /// Builds from the shown nodes of `scene`, of which it keeps its own copy. Degenerate and non-finite triangles are left
+    /// out and counted.
     explicit RayScene(const Scene& scene);
     ~RayScene();
     RayScene(const RayScene&) = delete;
@@ -70,10 +73,16 @@ public:
     /// The same along a ray that never ends (sun, sky).
     [[nodiscard]] Rgb transmittance_to_infinity(const vec3& from, const vec3& direction) const;
 
+    /// Material of a surface; the default material where it has none.
+    [[nodiscard]] const Material& material(std::uint32_t surface) const;
+    /// Base colour of the material at texture coordinates of a surface's point (linear, alpha in w), texture and vertex
+    /// colours applied; `barycentric` as in Hit.
+    [[nodiscard]] vec4 base_color(std::uint32_t surface, std::uint32_t triangle, const vec2& barycentric) const;
+    /// Emitted radiance at that point, emissive texture applied, cd/m2.
+    [[nodiscard]] Rgb emission(std::uint32_t surface, std::uint32_t triangle, const vec2& barycentric) const;
+
     /// Vertices of a triangle in engine coordinates, counter-clockwise seen from the front side.
-    void triangle(std::uint32_t surface, std::uint32_t triangle, vec3 out[3]) const;
-    /// Interpolated texture coordinates of a hit (set 0 or 1); zero where the mesh has none.
-    [[nodiscard]] vec2 texcoord(const Hit& hit, int set) const;
+    [[nodiscard]] std::array<vec3, 3> triangle(std::uint32_t surface, std::uint32_t triangle) const;
     /// Interpolated shading normal in engine coordinates, on the front side, unit.
     [[nodiscard]] vec3 shading_normal(const Hit& hit) const;
 

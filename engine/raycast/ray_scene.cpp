@@ -1,0 +1,390 @@
+#include "engine/raycast/ray_scene.h"
+
+#include "engine/base/checks.h"
+#include "engine/geometry/tessellate.h"
+#include "engine/scene/texture_sampling.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <embree3/rtcore.h>
+#include <map>
+#include <thread>
+
+namespace atrium {
+namespace {
+
+constexpr unsigned kOpaqueMask = 1; // stops light
+constexpr unsigned kFilterMask = 2; // glass, cut-outs, blended surfaces: some light goes through
+constexpr int kMaxCrossings = 64;   // panes and leaves in a row; beyond it the light is taken as absorbed
+
+// Ends of a visibility segment are pulled in by this, metres: below any wall's thickness, above float rounding at 100 m.
+constexpr float kEndOffset = 2e-4F;
+
+bool lets_light_through(const Material& m) { return m.transmission > 0.0F || m.alpha_mode != Material::Alpha::Opaque; }
+
+// Unpolarised Fresnel reflectance of a dielectric interface; cos_i on the side of relative index 1.
+float fresnel_dielectric(float cos_i, float eta) {
+    const float sin2_t = (1.0F - cos_i * cos_i) / (eta * eta);
+    if (sin2_t >= 1.0F) {
+        return 1.0F;
+    }
+    const float cos_t = std::sqrt(1.0F - sin2_t);
+    const float rs = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    const float rp = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    return 0.5F * (rs * rs + rp * rp);
+}
+
+// One crossing of a glass surface without bending. Thin: both faces with their inner reflections, (1-F)/(1+F). Solid: one
+// face; the absorption between two faces is added by the caller's caller (particles), here the tint stands for it.
+Rgb glass_transmittance(const Material& m, const Rgb& tint, float cos_i) {
+    const float f = fresnel_dielectric(cos_i, std::max(m.ior, 1.0F));
+    const float through = m.thickness > 0.0F ? 1.0F - f : (1.0F - f) / (1.0F + f);
+    return tint * (through * m.transmission);
+}
+
+struct alignas(64) Counter {
+    std::atomic<std::uint64_t> value{0};
+};
+
+void on_embree_error(void*, RTCError, const char* message) { std::fprintf(stderr, "embree: %s\n", message); }
+
+} // namespace
+
+struct RayScene::Impl {
+    Scene scene;
+    std::vector<RaySurface> surfaces;
+    std::vector<const Material*> materials; // per surface, into `scene`
+    std::vector<Counter> counters = std::vector<Counter>(16);
+    RTCDevice device = nullptr;
+    RTCScene embree = nullptr;
+    dvec3 origin{0.0};
+    Box3 bounds;
+    std::size_t triangles = 0;
+    std::size_t dropped = 0;
+    std::atomic<std::size_t> bytes{0};
+    bool any_filter = false;
+
+    void count_ray() {
+        static std::atomic<unsigned> next{0};
+        thread_local const unsigned slot = next.fetch_add(1) % 16;
+        counters[slot].value.fetch_add(1, std::memory_order_relaxed);
+    }
+
+    void collect() {
+        const DBox3 world = scene.bounds();
+        origin = world.empty() ? dvec3(0.0) : glm::round(world.centre());
+        std::map<const MeshData*, bool> closed;
+        std::map<ShapeId, std::shared_ptr<const MeshData>> tessellated;
+        for (const NodeId id : scene.in_tree_order()) {
+            const Node& node = *scene.nodes.find(id);
+            const Shape* shape = scene.shapes.find(node.shape);
+            if (shape == nullptr || !scene.shown(id)) {
+                continue;
+            }
+            auto& mesh = tessellated[node.shape];
+            if (!mesh) {
+                mesh = tessellate(shape->geometry);
+            }
+            add_node(id, node, mesh, closed);
+        }
+    }
+
+    void add_node(NodeId id, const Node& node, const std::shared_ptr<const MeshData>& mesh,
+                  std::map<const MeshData*, bool>& closed) {
+        dmat4 to_engine = scene.world_matrix(id);
+        to_engine[3] -= dvec4(origin, 0.0);
+        const double determinant = glm::determinant(dmat3(to_engine));
+        auto positions = std::make_shared<std::vector<vec3>>(mesh->positions.size());
+        for (std::size_t i = 0; i < positions->size(); ++i) {
+            (*positions)[i] = vec3(dvec3(to_engine * dvec4(dvec3(mesh->positions[i]), 1.0)));
+        }
+        for (std::size_t part = 0; part < mesh->parts.size(); ++part) {
+            RaySurface surface;
+            surface.node = id;
+            surface.part = std::uint32_t(part);
+            surface.material = part < node.materials.size() ? node.materials[part] : MaterialId{};
+            surface.mesh = mesh;
+            surface.positions = positions;
+            surface.to_engine = to_engine;
+            surface.mirrored = determinant < 0.0;
+            surface.normal_matrix = determinant != 0.0 ? glm::transpose(glm::inverse(dmat3(to_engine))) : dmat3(1.0);
+            const MeshPart& range = mesh->parts[part];
+            for (std::uint32_t i = range.first_index; i + 2 < range.first_index + range.index_count; i += 3) {
+                uvec3 t(mesh->indices[i], mesh->indices[i + 1], mesh->indices[i + 2]);
+                if (surface.mirrored) {
+                    std::swap(t.y, t.z);
+                }
+                const vec3& a = (*positions)[t.x];
+                const vec3& b = (*positions)[t.y];
+                const vec3& c = (*positions)[t.z];
+                const vec3 area = glm::cross(b - a, c - a);
+                if (!is_finite(a) || !is_finite(b) || !is_finite(c) || !(glm::dot(area, area) > 0.0F)) {
+                    ++dropped;
+                    continue;
+                }
+                surface.triangles.push_back(t);
+                bounds.add(a);
+                bounds.add(b);
+                bounds.add(c);
+            }
+            if (surface.triangles.empty()) {
+                continue;
+            }
+            const Material* material = scene.materials.find(surface.material);
+            material = material != nullptr ? material : &default_material();
+            if (material->double_sided && !lets_light_through(*material)) {
+                const auto [it, first] = closed.try_emplace(mesh.get(), false);
+                if (first) {
+                    it->second = is_closed(*mesh);
+                }
+                surface.back_side = !it->second;
+            }
+            triangles += surface.triangles.size();
+            materials.push_back(material);
+            any_filter = any_filter || lets_light_through(*material);
+            surfaces.push_back(std::move(surface));
+        }
+    }
+
+    void build() {
+        device = rtcNewDevice(nullptr);
+        ATRIUM_CHECK(device != nullptr);
+        rtcSetDeviceErrorFunction(device, on_embree_error, nullptr);
+        rtcSetDeviceMemoryMonitorFunction(
+            device,
+            [](void* self, ssize_t change, bool) {
+                static_cast<Impl*>(self)->bytes += std::size_t(change);
+                return true;
+            },
+            this);
+        embree = rtcNewScene(device);
+        rtcSetSceneFlags(embree, RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(embree, RTC_BUILD_QUALITY_MEDIUM);
+        for (std::size_t i = 0; i < surfaces.size(); ++i) {
+            const RaySurface& s = surfaces[i];
+            RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+            auto* vertices = static_cast<vec3*>(rtcSetNewGeometryBuffer(
+                geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), s.positions->size()));
+            std::copy(s.positions->begin(), s.positions->end(), vertices);
+            auto* indices = static_cast<uvec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                        sizeof(uvec3), s.triangles.size()));
+            std::copy(s.triangles.begin(), s.triangles.end(), indices);
+            rtcSetGeometryMask(geometry, lets_light_through(*materials[i]) ? kFilterMask : kOpaqueMask);
+            rtcCommitGeometry(geometry);
+            rtcAttachGeometryByID(embree, geometry, unsigned(i));
+            rtcReleaseGeometry(geometry);
+        }
+        rtcCommitScene(embree);
+    }
+
+    ~Impl() {
+        if (embree != nullptr) {
+            rtcReleaseScene(embree);
+        }
+        if (device != nullptr) {
+            rtcSetDeviceMemoryMonitorFunction(device, nullptr, nullptr);
+            rtcReleaseDevice(device);
+        }
+    }
+
+    static void fill(RTCRay& ray, const vec3& from, const vec3& direction, float tnear, float tfar, unsigned mask) {
+        ray.org_x = from.x;
+        ray.org_y = from.y;
+        ray.org_z = from.z;
+        ray.dir_x = direction.x;
+        ray.dir_y = direction.y;
+        ray.dir_z = direction.z;
+        ray.tnear = tnear;
+        ray.tfar = tfar;
+        ray.mask = mask;
+        ray.time = 0.0F;
+        ray.id = 0;
+        ray.flags = 0;
+    }
+
+    bool blocked(const vec3& from, const vec3& direction, float tnear, float tfar, unsigned mask) {
+        count_ray();
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRay ray;
+        fill(ray, from, direction, tnear, tfar, mask);
+        rtcOccluded1(embree, &context, &ray);
+        return ray.tfar < 0.0F;
+    }
+
+    Hit hit(const vec3& from, const vec3& direction, float tnear, float tfar, unsigned mask) {
+        count_ray();
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRayHit query;
+        fill(query.ray, from, direction, tnear, tfar, mask);
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(embree, &context, &query);
+        Hit out;
+        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+            return out;
+        }
+        out.surface = query.hit.geomID;
+        out.triangle = query.hit.primID;
+        out.t = query.ray.tfar;
+        out.barycentric = {query.hit.u, query.hit.v};
+        const uvec3& t = surfaces[out.surface].triangles[out.triangle];
+        const std::vector<vec3>& p = *surfaces[out.surface].positions;
+        out.geometric_normal = glm::normalize(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]));
+        out.front = glm::dot(out.geometric_normal, direction) < 0.0F;
+        return out;
+    }
+
+    // What a filtering surface lets through at a hit, straight on.
+    Rgb filter(const RayScene& self, const Hit& h, const vec3& direction) const {
+        const Material& m = *materials[h.surface];
+        const vec4 color = self.base_color(h.surface, h.triangle, h.barycentric);
+        Rgb through(0.0F);
+        if (m.transmission > 0.0F) {
+            through = glass_transmittance(m, Rgb(color), std::abs(glm::dot(h.geometric_normal, direction)));
+        }
+        if (m.alpha_mode == Material::Alpha::Mask) {
+            return color.a < m.alpha_cutoff ? Rgb(1.0F) : through;
+        }
+        if (m.alpha_mode == Material::Alpha::Blend) {
+            return through * color.a + Rgb(1.0F - color.a);
+        }
+        return through;
+    }
+
+    Rgb transmit(const RayScene& self, const vec3& from, const vec3& direction, float tnear, float tfar) {
+        if (blocked(from, direction, tnear, tfar, kOpaqueMask)) {
+            return Rgb(0.0F);
+        }
+        Rgb through(1.0F);
+        if (!any_filter) {
+            return through;
+        }
+        for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
+            const Hit h = hit(from, direction, tnear, tfar, kFilterMask);
+            if (!h) {
+                return through;
+            }
+            through *= filter(self, h, direction);
+            if (max_component(through) <= 1e-4F) {
+                break;
+            }
+            tnear = h.t + std::max(1e-5F, 1e-6F * h.t);
+        }
+        return Rgb(0.0F);
+    }
+
+    template <class V>
+    V interpolate(const std::vector<V>& values, std::uint32_t surface, std::uint32_t triangle, const vec2& b) const {
+        const uvec3& t = surfaces[surface].triangles[triangle];
+        return values[t.x] * (1.0F - b.x - b.y) + values[t.y] * b.x + values[t.z] * b.y;
+    }
+    vec4 textured(const TextureRef& ref, std::uint32_t surface, std::uint32_t triangle, const vec2& b) const {
+        const Texture* texture = scene.textures.find(ref.texture);
+        const MeshData& mesh = *surfaces[surface].mesh;
+        const std::vector<vec2>& coordinates = ref.texcoord == 1 ? mesh.texcoords1 : mesh.texcoords0;
+        if (texture == nullptr || coordinates.empty()) {
+            return vec4(1.0F);
+        }
+        return sample_texture(*texture, ref.apply(interpolate(coordinates, surface, triangle, b)));
+    }
+};
+
+RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
+    impl_->scene = scene;
+    impl_->collect();
+    impl_->build();
+}
+
+RayScene::~RayScene() = default;
+
+const std::vector<RaySurface>& RayScene::surfaces() const { return impl_->surfaces; }
+dvec3 RayScene::origin() const { return impl_->origin; }
+Box3 RayScene::bounds() const { return impl_->bounds; }
+std::size_t RayScene::triangle_count() const { return impl_->triangles; }
+std::size_t RayScene::dropped_triangles() const { return impl_->dropped; }
+std::size_t RayScene::memory_bytes() const { return impl_->bytes; }
+const Material& RayScene::material(std::uint32_t surface) const { return *impl_->materials[surface]; }
+
+std::uint64_t RayScene::rays_traced() const {
+    std::uint64_t sum = 0;
+    for (const Counter& c : impl_->counters) {
+        sum += c.value.load(std::memory_order_relaxed);
+    }
+    return sum;
+}
+
+Hit RayScene::nearest(const Ray& ray) const {
+    float tnear = 0.0F;
+    for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
+        const Hit h = impl_->hit(ray.origin, ray.direction, tnear, ray.tmax, kOpaqueMask | kFilterMask);
+        if (!h) {
+            return h;
+        }
+        const Material& m = *impl_->materials[h.surface];
+        if (m.alpha_mode != Material::Alpha::Mask || base_color(h.surface, h.triangle, h.barycentric).a >= m.alpha_cutoff) {
+            return h;
+        }
+        tnear = h.t + std::max(1e-5F, 1e-6F * h.t);
+    }
+    return {};
+}
+
+bool RayScene::occluded(const vec3& from, const vec3& to) const { return max_component(transmittance(from, to)) <= 0.0F; }
+
+Rgb RayScene::transmittance(const vec3& from, const vec3& to) const {
+    const vec3 d = to - from;
+    const float length = glm::length(d);
+    const float offset = std::min(kEndOffset, 0.1F * length);
+    if (!(length > 0.0F)) {
+        return Rgb(1.0F);
+    }
+    return impl_->transmit(*this, from, d / length, offset, length - offset);
+}
+
+Rgb RayScene::transmittance_to_infinity(const vec3& from, const vec3& direction) const {
+    return impl_->transmit(*this, from, direction, kEndOffset, std::numeric_limits<float>::infinity());
+}
+
+vec4 RayScene::base_color(std::uint32_t surface, std::uint32_t triangle, const vec2& barycentric) const {
+    const Material& m = *impl_->materials[surface];
+    vec4 color(m.base_color, m.alpha);
+    if (m.base_color_texture) {
+        color *= impl_->textured(m.base_color_texture, surface, triangle, barycentric);
+    }
+    const MeshData& mesh = *impl_->surfaces[surface].mesh;
+    if (!mesh.colors.empty()) {
+        color *= vec4(impl_->interpolate(mesh.colors, surface, triangle, barycentric), 1.0F);
+    }
+    return color;
+}
+
+Rgb RayScene::emission(std::uint32_t surface, std::uint32_t triangle, const vec2& barycentric) const {
+    const Material& m = *impl_->materials[surface];
+    Rgb emitted = m.emitted_radiance();
+    if (m.emissive_texture && m.emits()) {
+        emitted *= Rgb(impl_->textured(m.emissive_texture, surface, triangle, barycentric));
+    }
+    return emitted;
+}
+
+std::array<vec3, 3> RayScene::triangle(std::uint32_t surface, std::uint32_t triangle) const {
+    const RaySurface& s = impl_->surfaces[surface];
+    const uvec3& t = s.triangles[triangle];
+    return {(*s.positions)[t.x], (*s.positions)[t.y], (*s.positions)[t.z]};
+}
+
+vec3 RayScene::shading_normal(const Hit& hit) const {
+    const RaySurface& s = impl_->surfaces[hit.surface];
+    if (s.mesh->normals.empty()) {
+        return hit.geometric_normal;
+    }
+    const vec3 local = impl_->interpolate(s.mesh->normals, hit.surface, hit.triangle, hit.barycentric);
+    const dvec3 n = s.normal_matrix * dvec3(local);
+    const double length = glm::length(n);
+    return length > 0.0 ? vec3(n / length) : hit.geometric_normal;
+}
+
+} // namespace atrium
