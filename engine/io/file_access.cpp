@@ -96,8 +96,8 @@ Result<PendingFile> PendingFile::prepare(const fs::path& path, std::span<const s
         }
     }
     static std::atomic<unsigned> counter{0};
-    const fs::path temporary = target.parent_path() / ("." + target.filename().string() + "." +
-                                                       std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".tmp");
+    const fs::path temporary = target.parent_path() / ("." + target.filename().string() + "." + std::to_string(::getpid()) +
+                                                       "-" + std::to_string(counter++) + ".tmp");
     const Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (file.fd < 0) {
         return fail(path.string(), "", "cannot be written: " + system_reason(),
@@ -193,7 +193,8 @@ bool is_plain_relative_path(const std::string& path) {
 
 Result<fs::path> resolve_uri(const fs::path& folder, const std::string& uri) {
     if (has_scheme(uri)) {
-        return fail("", "", "\"" + uri + "\" is not a file beside the scene", "Only relative file names and data: are opened.");
+        return fail("", "", "\"" + uri + "\" is not a file beside the scene",
+                    "Only relative file names and data: are opened.");
     }
     std::string name = percent_decode(uri);
     if (name.find('\0') != std::string::npos) {

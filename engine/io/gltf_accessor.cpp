@@ -105,8 +105,9 @@ FloatElements read_floats(ReadContext& context, int index, NonFinite policy) {
     if (policy == NonFinite::Refuse) {
         const auto bad = std::find_if(out.values.begin(), out.values.end(), [](float v) { return !std::isfinite(v); });
         if (bad != out.values.end()) {
-            refuse(where, "element " + std::to_string(std::size_t(bad - out.values.begin()) / out.components) +
-                              " is not a finite number",
+            refuse(where,
+                   "element " + std::to_string(std::size_t(bad - out.values.begin()) / out.components) +
+                       " is not a finite number",
                    "The geometry is damaged; export the file again.");
         }
     }

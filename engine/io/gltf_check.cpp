@@ -29,7 +29,8 @@ std::uint64_t whole_or(const Json& object, const char* key, std::uint64_t fallba
     return value != nullptr ? whole(*value, 0, most, where + "/" + key) : fallback;
 }
 
-std::uint64_t required(const Json& object, const char* key, std::uint64_t least, std::uint64_t most, const std::string& where) {
+std::uint64_t required(const Json& object, const char* key, std::uint64_t least, std::uint64_t most,
+                       const std::string& where) {
     const Json* value = find(object, key);
     if (value == nullptr) {
         refuse(where, std::string("\"") + key + "\" is missing");
@@ -49,8 +50,9 @@ void check_inside_view(const Json& root, std::uint64_t view_index, std::uint64_t
     }
     // All terms are below 2^40 x 2^8, so nothing overflows.
     if (offset + stride * (count - 1) + size > length) {
-        refuse(where, "reaches beyond the end of bufferViews/" + std::to_string(view_index) + " (" + std::to_string(length) +
-                          " bytes)",
+        refuse(where,
+               "reaches beyond the end of bufferViews/" + std::to_string(view_index) + " (" + std::to_string(length) +
+                   " bytes)",
                "The file is damaged; export it again.");
     }
 }
@@ -78,7 +80,8 @@ void check_sparse(const Json& root, const Json& accessor, std::uint64_t count, s
             size = component_size(type);
         }
         const int view = index(*object, "bufferView", views, part);
-        check_inside_view(root, std::uint64_t(view), whole_or(*object, "byteOffset", 0, kMaxBytes, part), changed, size, part);
+        check_inside_view(root, std::uint64_t(view), whole_or(*object, "byteOffset", 0, kMaxBytes, part), changed, size,
+                          part);
     }
 }
 
@@ -170,8 +173,8 @@ std::size_t component_size(std::uint64_t component_type) {
 }
 
 std::size_t component_count(const std::string& type) {
-    static constexpr std::pair<std::string_view, std::size_t> kTypes[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4},
-                                                                          {"MAT2", 4},   {"MAT3", 9}, {"MAT4", 16}};
+    static constexpr std::pair<std::string_view, std::size_t> kTypes[] = {
+        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
     for (const auto& [name, count] : kTypes) {
         if (type == name) {
             return count;
@@ -188,7 +191,8 @@ void check_requirements(const Json& root) {
             }
             const auto& text = name.get_ref<const std::string&>();
             if (std::find(std::begin(kUnderstood), std::end(kUnderstood), text) == std::end(kUnderstood)) {
-                refuse("extensionsRequired", "the file cannot be read without the extension " + text + ", which is not supported",
+                refuse("extensionsRequired",
+                       "the file cannot be read without the extension " + text + ", which is not supported",
                        "Export it again without " + text + ".");
             }
         }
@@ -235,8 +239,9 @@ void check_buffers(const Json& root, bool has_binary_chunk) {
         const std::uint64_t offset = whole_or(views[i], "byteOffset", 0, kMaxBytes, where);
         const std::uint64_t length = required(views[i], "byteLength", 1, kMaxBytes, where);
         if (offset + length > available) {
-            refuse(where, "reaches beyond the end of buffers/" + std::to_string(buffer) + " (" + std::to_string(available) +
-                              " bytes)",
+            refuse(where,
+                   "reaches beyond the end of buffers/" + std::to_string(buffer) + " (" + std::to_string(available) +
+                       " bytes)",
                    "The file is damaged; export it again.");
         }
         if (const Json* stride = find(views[i], "byteStride")) {
@@ -332,8 +337,8 @@ void check_nodes(const Json& root) {
             for (const Json& child : *children) {
                 const std::uint64_t c = whole(child, 0, nodes.size() - 1, where + "/children");
                 if (parent[c] >= 0) {
-                    refuse(place(root, "nodes", c), "has two parents: nodes/" + std::to_string(parent[c]) + " and nodes/" +
-                                                        std::to_string(i));
+                    refuse(place(root, "nodes", c),
+                           "has two parents: nodes/" + std::to_string(parent[c]) + " and nodes/" + std::to_string(i));
                 }
                 parent[c] = int(i);
             }

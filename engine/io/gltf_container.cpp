@@ -105,7 +105,8 @@ Container open_container(std::vector<std::uint8_t> bytes) {
         const std::uint32_t type = little_endian(bytes, at + 4);
         at += 8;
         if (size > bytes.size() - at) {
-            refuse(where, "announces " + std::to_string(size) + " bytes but " + std::to_string(bytes.size() - at) + " are left",
+            refuse(where,
+                   "announces " + std::to_string(size) + " bytes but " + std::to_string(bytes.size() - at) + " are left",
                    kDamaged);
         }
         const std::span<const std::uint8_t> content(bytes.data() + at, size);

@@ -1,4 +1,5 @@
-// The outermost layer of a scene file: plain JSON text or the chunks of a GLB, split and parsed. Knows nothing of glTF's contents.
+// The outermost layer of a scene file: plain JSON text or the chunks of a GLB, split and parsed. Knows nothing of glTF's
+// contents.
 #pragma once
 
 #include "engine/io/gltf_json.h"

@@ -9,11 +9,12 @@
 //     disc      radius                                              plane z = 0, front +z
 // ATRIUM_light        on a light of KHR_lights_punctual: angularDiameterDegrees (directional only), enabled
 // ATRIUM_node         on a node: visible, locked
-// ATRIUM_camera       on a camera: exposure (stops from automatic exposure); infinite (an orthographic camera without far plane)
-// ATRIUM_environment  on the root: skyRadiance [r,g,b] in cd/m2, the same from every direction
-// ATRIUM_settings     on the root: quality "draft" | "normal" | "fine", seed
-// ATRIUM_solution     on the root of a .atrium file: bufferView, encoding "zstd", byteLength (decoded), hash (FNV-1a 64 of the
-//                     decoded bytes, 16 hexadecimal digits). Disposable: a file without it, or with a damaged one, still opens.
+// ATRIUM_camera       on a camera: exposure (stops from automatic exposure); infinite (an orthographic camera without far
+// plane) ATRIUM_environment  on the root: skyRadiance [r,g,b] in cd/m2, the same from every direction ATRIUM_settings     on
+// the root: quality "draft" | "normal" | "fine", seed ATRIUM_solution     on the root of a .atrium file: bufferView,
+// encoding "zstd", byteLength (decoded), hash (FNV-1a 64 of the
+//                     decoded bytes, 16 hexadecimal digits). Disposable: a file without it, or with a damaged one, still
+//                     opens.
 // Fields that hold their default are left out.
 #pragma once
 
@@ -43,9 +44,24 @@ inline constexpr char kNodeVisibility[] = "KHR_node_visibility";
 inline constexpr char kWebp[] = "EXT_texture_webp";
 
 /// Extensions that the reader interprets: a file may require them.
-inline constexpr std::string_view kUnderstood[] = {
-    kShape,       kLight,  kNode,    kCamera,   kEnvironment, kSettings,         kSolution,     kLightsPunctual, kEmissiveStrength,
-    kTransmission, kIor,   kVolume,  kSpecular, kUnlit,       kTextureTransform, kQuantization, kInstancing,     kNodeVisibility,
-    kWebp};
+inline constexpr std::string_view kUnderstood[] = {kShape,
+                                                   kLight,
+                                                   kNode,
+                                                   kCamera,
+                                                   kEnvironment,
+                                                   kSettings,
+                                                   kSolution,
+                                                   kLightsPunctual,
+                                                   kEmissiveStrength,
+                                                   kTransmission,
+                                                   kIor,
+                                                   kVolume,
+                                                   kSpecular,
+                                                   kUnlit,
+                                                   kTextureTransform,
+                                                   kQuantization,
+                                                   kInstancing,
+                                                   kNodeVisibility,
+                                                   kWebp};
 
 } // namespace atrium::gltf

@@ -23,15 +23,15 @@ bool decode_data_uri(const std::string& uri, std::string& mime_type, std::vector
         return false;
     }
     const std::string_view payload = std::string_view(uri).substr(comma + 1);
-    return decode_base64(payload, out) || (payload.find('%') != std::string_view::npos &&
-                                           decode_base64(percent_decode(std::string(payload)), out));
+    return decode_base64(payload, out) ||
+           (payload.find('%') != std::string_view::npos && decode_base64(percent_decode(std::string(payload)), out));
 }
 
 std::string mime_from_content(const std::vector<std::uint8_t>& bytes, const std::string& fallback) {
     const auto starts = [&](std::string_view magic) {
-        return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin(), [](char a, std::uint8_t b) {
-                   return static_cast<unsigned char>(a) == b;
-               });
+        return bytes.size() >= magic.size() &&
+               std::equal(magic.begin(), magic.end(), bytes.begin(),
+                          [](char a, std::uint8_t b) { return static_cast<unsigned char>(a) == b; });
     };
     if (starts("\x89PNG")) {
         return "image/png";
@@ -58,7 +58,8 @@ std::vector<std::uint8_t> fetch_buffer(const std::filesystem::path& folder, cons
     }
     auto read = read_file(*path, kMaxFile);
     if (!read) {
-        refuse(where, "the file \"" + uri + "\" " + read.error().what, "Put it beside the scene file, where it was exported.");
+        refuse(where, "the file \"" + uri + "\" " + read.error().what,
+               "Put it beside the scene file, where it was exported.");
     }
     file_bytes += read->size();
     return std::move(*read);
@@ -132,7 +133,8 @@ std::size_t buffer_of(const std::string& name, const BufferList& buffers) {
     constexpr std::string_view kPrefix = "buffer";
     std::size_t n = 0;
     if (!name.starts_with(kPrefix) ||
-        std::from_chars(name.data() + kPrefix.size(), name.data() + name.size(), n).ec != std::errc{} || n >= buffers.size()) {
+        std::from_chars(name.data() + kPrefix.size(), name.data() + name.size(), n).ec != std::errc{} ||
+        n >= buffers.size()) {
         return std::string::npos;
     }
     return n;
@@ -154,7 +156,8 @@ Resources fetch_resources(const std::filesystem::path& file, Container& containe
             uri.empty() ? std::move(container.binary) : fetch_buffer(folder, uri, where, out.file_bytes);
         const std::uint64_t length = whole(buffers[i]["byteLength"], 1, kMaxFile, where);
         if (bytes.size() < length) {
-            refuse(where, "holds " + std::to_string(bytes.size()) + " bytes where the file announces " + std::to_string(length),
+            refuse(where,
+                   "holds " + std::to_string(bytes.size()) + " bytes where the file announces " + std::to_string(length),
                    "The file is damaged or incomplete; copy or export it again.");
         }
         bytes.resize(std::size_t(length));
@@ -167,7 +170,10 @@ Resources fetch_resources(const std::filesystem::path& file, Container& containe
         image.mime_type = images[i].value("mimeType", "");
         std::vector<std::uint8_t> bytes = fetch_image(folder, images[i], root, out, image, why);
         if (!why.empty()) {
-            problems.push_back({Problem::Severity::Warning, {}, place(root, "images", i), why,
+            problems.push_back({Problem::Severity::Warning,
+                                {},
+                                place(root, "images", i),
+                                why,
                                 "Surfaces that use it show their plain colour."});
         } else {
             image.mime_type = mime_from_content(bytes, image.mime_type);

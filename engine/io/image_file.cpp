@@ -20,10 +20,16 @@ std::string reader_name(std::span<const std::uint8_t> bytes, const std::string& 
         std::string_view begin;
         const char* extension;
     };
-    static constexpr Magic kMagics[] = {
-        {"\x89PNG", "png"}, {"\xFF\xD8\xFF", "jpg"}, {"#?RADIANCE", "hdr"}, {"#?RGBE", "hdr"},
-        {"\x76\x2F\x31\x01", "exr"}, {"RIFF", "webp"}, {"GIF8", "gif"}, {"BM", "bmp"},
-        {std::string_view("II*\0", 4), "tif"}, {std::string_view("MM\0*", 4), "tif"}};
+    static constexpr Magic kMagics[] = {{"\x89PNG", "png"},
+                                        {"\xFF\xD8\xFF", "jpg"},
+                                        {"#?RADIANCE", "hdr"},
+                                        {"#?RGBE", "hdr"},
+                                        {"\x76\x2F\x31\x01", "exr"},
+                                        {"RIFF", "webp"},
+                                        {"GIF8", "gif"},
+                                        {"BM", "bmp"},
+                                        {std::string_view("II*\0", 4), "tif"},
+                                        {std::string_view("MM\0*", 4), "tif"}};
     const std::string prefix = "image held in memory.";
     for (const Magic& magic : kMagics) {
         if (bytes.size() >= magic.begin.size() && std::memcmp(bytes.data(), magic.begin.data(), magic.begin.size()) == 0) {
@@ -111,7 +117,8 @@ Result<void> write_picture(const std::filesystem::path& path, const Picture& pic
         picture.pixels.size() != std::size_t(picture.width) * std::size_t(picture.height)) {
         return fail(path.string(), "", "the picture has no pixels");
     }
-    Result<std::vector<std::uint8_t>> bytes = fail(path.string(), "", "is neither .exr nor .png", "Name the picture .exr or .png.");
+    Result<std::vector<std::uint8_t>> bytes =
+        fail(path.string(), "", "is neither .exr nor .png", "Name the picture .exr or .png.");
     try {
         if (extension == ".exr") {
             OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::FLOAT);
