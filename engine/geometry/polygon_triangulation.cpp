@@ -84,9 +84,8 @@ PolygonTriangles triangulate(const Polygon& polygon) {
     for (const auto& hole : polygon.holes) {
         std::vector<std::uint32_t> indices = add_ring(hole, false);
         if (indices.size() >= 3) {
-            const auto rightmost = std::max_element(indices.begin(), indices.end(), [&](auto a, auto b) {
-                return out.points[a].x < out.points[b].x;
-            });
+            const auto rightmost = std::max_element(indices.begin(), indices.end(),
+                                                    [&](auto a, auto b) { return out.points[a].x < out.points[b].x; });
             std::rotate(indices.begin(), rightmost, indices.end());
             holes.push_back(std::move(indices));
         }

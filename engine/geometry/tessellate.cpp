@@ -191,9 +191,8 @@ bool is_closed(const MeshData& mesh) {
             ++use.count;
         }
     }
-    return !edges.empty() && std::all_of(edges.begin(), edges.end(), [](const auto& e) {
-        return e.second.balance == 0 && e.second.count == 2;
-    });
+    return !edges.empty() && std::all_of(edges.begin(), edges.end(),
+                                         [](const auto& e) { return e.second.balance == 0 && e.second.count == 2; });
 }
 
 } // namespace atrium
