@@ -2,9 +2,13 @@
 
 #include <QString>
 
+// The linker drops a static library's resources unless somebody asks for them; the macro must stand in no namespace.
+static void keep_resources() { Q_INIT_RESOURCE(atrium); }
+
 namespace atrium::ui {
 
 std::unique_ptr<QOpenGLShaderProgram> load_program(const char* vertex, const char* fragment) {
+    keep_resources();
     auto program = std::make_unique<QOpenGLShaderProgram>();
     const QString folder = QStringLiteral(":/shaders/");
     const bool good = program->addShaderFromSourceFile(QOpenGLShader::Vertex, folder + QString::fromLatin1(vertex)) &&
