@@ -38,7 +38,7 @@ public:
     [[nodiscard]] Key next_key() const {
         for (std::size_t i = first_free_; i < slots_.size(); ++i) {
             if (!slots_[i].value) {
-                return {std::uint32_t(i), slots_[i].generation + 1};
+                return {std::uint32_t(i), slots_[i].newest + 1};
             }
         }
         return {std::uint32_t(slots_.size()), 1};
@@ -57,6 +57,7 @@ public:
         }
         slot.value.emplace(std::move(value));
         slot.generation = key.generation;
+        slot.newest = slot.newest > key.generation ? slot.newest : key.generation;
         ++count_;
         while (first_free_ < slots_.size() && slots_[first_free_].value) {
             ++first_free_;
@@ -81,6 +82,10 @@ public:
     [[nodiscard]] const T* find(Key key) const { return contains(key) ? &*slots_[key.slot].value : nullptr; }
     [[nodiscard]] std::size_t size() const { return count_; }
     [[nodiscard]] bool empty() const { return count_ == 0; }
+    /// True when a value lives in the slot of `key`, whatever its generation: restore() would fail.
+    [[nodiscard]] bool occupied(Key key) const { return key.slot < slots_.size() && slots_[key.slot].value.has_value(); }
+    /// Slots ever used, live or not: every id given out so far has a slot below this.
+    [[nodiscard]] std::size_t slot_count() const { return slots_.size(); }
 
     /// Calls f(id, value) for every live entry in slot order.
     template <class F> void for_each(F&& f) const {
@@ -112,7 +117,8 @@ public:
 private:
     struct Slot {
         std::optional<T> value;
-        std::uint32_t generation = 0;
+        std::uint32_t generation = 0; ///< of the value that is or was here last
+        std::uint32_t newest = 0;     ///< highest ever given out: after an undo put an older id back, it stays used up
     };
     std::vector<Slot> slots_;
     std::size_t count_ = 0;

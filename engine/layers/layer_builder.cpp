@@ -1,0 +1,531 @@
+#include "engine/layers/layer_builder.h"
+
+#include "engine/base/parallel.h"
+
+#include <algorithm>
+#include <map>
+#include <unordered_map>
+
+namespace atrium {
+namespace {
+
+constexpr float kPullIn = 0.01F; // metres at most that a sample is moved off its vertex towards the triangles' inside
+
+/// Vertex of the growing mesh of one node.
+struct Vertex {
+    vec3 local{0.0F};
+    vec3 local_normal{0.0F};
+    vec2 uv0{0.0F};
+    vec2 uv1{0.0F};
+    vec3 color{1.0F};
+    vec3 position{0.0F}; ///< engine coordinates
+    vec3 normal{0.0F};   ///< engine coordinates, unit, on the front side
+    vec3 towards{0.0F};  ///< sum of (centroid - position) of the triangles around it
+    float triangles = 0.0F;
+    std::uint32_t weld = 0; ///< same for coincident vertices of the node
+    bool wants_back = false;
+    DirectSample front;
+    DirectSample back;
+};
+
+struct Triangle {
+    std::array<std::uint32_t, 3> v{};
+    std::uint32_t surface = 0;
+    bool open = true; ///< its edges may still be split
+};
+
+struct PairHash {
+    std::size_t operator()(std::uint64_t key) const noexcept { return std::size_t(key * 0x9E3779B97F4A7C15ULL >> 13); }
+};
+
+std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) { return (std::uint64_t(std::min(a, b)) << 32) | std::max(a, b); }
+
+/// All surfaces of one node.
+struct NodeMesh {
+    std::vector<std::uint32_t> surfaces;
+    std::vector<Vertex> vertices;
+    std::vector<Triangle> triangles;
+    std::uint32_t welds = 0;
+};
+
+class LayerBuild {
+public:
+    LayerBuild(const RayScene& rays, const PointGather& gather, const LayerSettings& settings,
+               const std::function<bool(std::uint32_t)>& back_lit, const RunContext& context)
+        : rays_(rays), gather_(gather), settings_(settings), back_lit_(back_lit), context_(context) {}
+
+    LayerSet run(double from, double to) {
+        collect();
+        for (NodeMesh& mesh : meshes_) {
+            split_long_edges(mesh);
+        }
+        std::vector<Request> all;
+        for (std::size_t m = 0; m < meshes_.size(); ++m) {
+            for (std::uint32_t v = 0; v < meshes_[m].vertices.size(); ++v) {
+                all.push_back({&meshes_[m].vertices[v]});
+            }
+        }
+        bool complete = sample(all, from, from + 0.5 * (to - from));
+        for (int level = 0; complete && level < 6 && added_ < settings_.max_vertices; ++level) {
+            const double step = 0.5 * (to - from) / 6.0;
+            if (!split_by_contrast(from + 0.5 * (to - from) + step * level, from + 0.5 * (to - from) + step * (level + 1),
+                                   complete)) {
+                break;
+            }
+        }
+        LayerSet out = finish();
+        out.complete = complete;
+        return out;
+    }
+
+private:
+    struct Request {
+        Vertex* vertex;
+    };
+
+    void collect() {
+        std::map<NodeId, std::size_t> mesh_of;
+        const auto& surfaces = rays_.surfaces();
+        for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
+            const auto [it, fresh] = mesh_of.try_emplace(surfaces[s].node, meshes_.size());
+            if (fresh) {
+                meshes_.emplace_back();
+            }
+            meshes_[it->second].surfaces.push_back(s);
+        }
+        for (NodeMesh& mesh : meshes_) {
+            std::map<std::array<float, 3>, std::uint32_t> weld;
+            for (const std::uint32_t s : mesh.surfaces) {
+                add_surface(mesh, s, weld);
+            }
+            mesh.welds = std::uint32_t(weld.size());
+        }
+    }
+
+    void add_surface(NodeMesh& mesh, std::uint32_t s, std::map<std::array<float, 3>, std::uint32_t>& weld) {
+        const RaySurface& surface = rays_.surfaces()[s];
+        const MeshData& data = *surface.mesh;
+        const bool back = surface.back_side && back_lit_(s);
+        std::unordered_map<std::uint32_t, std::uint32_t> copied;
+        for (const uvec3& t : surface.triangles) {
+            const auto& p = *surface.positions;
+            const vec3 face_normal = glm::normalize(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]));
+            Triangle out;
+            out.surface = s;
+            for (int k = 0; k < 3; ++k) {
+                const std::uint32_t v = t[k];
+                if (!data.normals.empty()) {
+                    if (const auto it = copied.find(v); it != copied.end()) {
+                        out.v[std::size_t(k)] = it->second;
+                        continue;
+                    }
+                }
+                Vertex vertex;
+                vertex.local = data.positions[v];
+                vertex.position = p[v];
+                vertex.wants_back = back;
+                if (data.normals.empty()) {
+                    vertex.normal = face_normal;
+                    const dvec3 local = glm::transpose(dmat3(surface.to_engine)) * dvec3(face_normal);
+                    vertex.local_normal = vec3(glm::normalize(local));
+                } else {
+                    vertex.local_normal = data.normals[v];
+                    const dvec3 n = surface.normal_matrix * dvec3(data.normals[v]);
+                    const double length = glm::length(n);
+                    vertex.normal = length > 0.0 ? vec3(n / length) : face_normal;
+                    // Files with normals on the wrong side are drawn and lit by the side that the winding says.
+                    if (glm::dot(vertex.normal, face_normal) < 0.0F) {
+                        vertex.normal = -vertex.normal;
+                    }
+                }
+                vertex.uv0 = data.texcoords0.empty() ? vec2(0.0F) : data.texcoords0[v];
+                vertex.uv1 = data.texcoords1.empty() ? vec2(0.0F) : data.texcoords1[v];
+                vertex.color = data.colors.empty() ? vec3(1.0F) : data.colors[v];
+                const vec3 key = vertex.local + vec3(0.0F);
+                vertex.weld = weld.try_emplace({key.x, key.y, key.z}, std::uint32_t(weld.size())).first->second;
+                out.v[std::size_t(k)] = std::uint32_t(mesh.vertices.size());
+                mesh.vertices.push_back(vertex);
+                copied[v] = out.v[std::size_t(k)];
+            }
+            add_triangle(mesh, out);
+        }
+    }
+
+    static void add_triangle(NodeMesh& mesh, const Triangle& t) {
+        mesh.triangles.push_back(t);
+        const vec3 centroid =
+            (mesh.vertices[t.v[0]].position + mesh.vertices[t.v[1]].position + mesh.vertices[t.v[2]].position) / 3.0F;
+        for (const std::uint32_t v : t.v) {
+            mesh.vertices[v].towards += centroid - mesh.vertices[v].position;
+            mesh.vertices[v].triangles += 1.0F;
+        }
+    }
+
+    static Vertex midpoint(const Vertex& a, const Vertex& b) {
+        Vertex m;
+        m.local = 0.5F * (a.local + b.local);
+        m.position = 0.5F * (a.position + b.position);
+        const auto mean_normal = [](const vec3& p, const vec3& q) {
+            const vec3 sum = p + q;
+            const float length = glm::length(sum);
+            return length > 1e-6F ? sum / length : p;
+        };
+        m.local_normal = mean_normal(a.local_normal, b.local_normal);
+        m.normal = mean_normal(a.normal, b.normal);
+        m.uv0 = 0.5F * (a.uv0 + b.uv0);
+        m.uv1 = 0.5F * (a.uv1 + b.uv1);
+        m.color = 0.5F * (a.color + b.color);
+        m.wants_back = a.wants_back;
+        return m;
+    }
+
+    // Cuts the open triangles along the welded edges in `split`; midpoints found in `ready` are used, others made.
+    using SplitSet = std::unordered_map<std::uint64_t, std::uint32_t, PairHash>; // welded edge -> weld id of its middle
+    using Middles = std::unordered_map<std::uint64_t, std::uint32_t, PairHash>;  // vertex pair -> vertex
+    void cut(NodeMesh& mesh, const SplitSet& split, Middles& middles) {
+        std::vector<Triangle> old;
+        old.swap(mesh.triangles);
+        for (Vertex& v : mesh.vertices) {
+            v.towards = vec3(0.0F);
+            v.triangles = 0.0F;
+        }
+        const auto middle_of = [&](std::uint32_t a, std::uint32_t b) -> std::uint32_t {
+            const auto it = split.find(edge_key(mesh.vertices[a].weld, mesh.vertices[b].weld));
+            if (it == split.end()) {
+                return Element::kNone;
+            }
+            const auto [middle, fresh] = middles.try_emplace(edge_key(a, b), 0);
+            if (fresh) {
+                middle->second = std::uint32_t(mesh.vertices.size());
+                mesh.vertices.push_back(midpoint(mesh.vertices[a], mesh.vertices[b]));
+                ++added_;
+            }
+            mesh.vertices[middle->second].weld = it->second;
+            return middle->second;
+        };
+        for (const Triangle& t : old) {
+            if (!t.open) {
+                add_triangle(mesh, t);
+                continue;
+            }
+            std::array<std::uint32_t, 3> m{};
+            unsigned count = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                m[k] = middle_of(t.v[k], t.v[(k + 1) % 3]);
+                count += m[k] != Element::kNone ? 1 : 0;
+            }
+            const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+                add_triangle(mesh, {{a, b, c}, t.surface, true});
+            };
+            if (count == 0) {
+                Triangle closed = t;
+                closed.open = false;
+                add_triangle(mesh, closed);
+            } else if (count == 3) {
+                add(t.v[0], m[0], m[2]);
+                add(m[0], t.v[1], m[1]);
+                add(m[2], m[1], t.v[2]);
+                add(m[0], m[1], m[2]);
+            } else {
+                // Turn so that the pattern starts at edge 0.
+                std::size_t k = 0;
+                if (count == 1) {
+                    while (m[k] == Element::kNone) {
+                        ++k;
+                    }
+                    const std::uint32_t a = t.v[k], b = t.v[(k + 1) % 3], c = t.v[(k + 2) % 3];
+                    add(a, m[k], c);
+                    add(m[k], b, c);
+                } else {
+                    while (m[k] != Element::kNone) {
+                        ++k; // k = the edge that stays whole, from a to b
+                    }
+                    const std::uint32_t a = t.v[k], b = t.v[(k + 1) % 3], c = t.v[(k + 2) % 3];
+                    const std::uint32_t bc = m[(k + 1) % 3], ca = m[(k + 2) % 3];
+                    add(bc, c, ca);
+                    const auto length = [&](std::uint32_t p, std::uint32_t q) {
+                        return glm::length(mesh.vertices[p].position - mesh.vertices[q].position);
+                    };
+                    if (length(a, bc) <= length(b, ca)) { // the shorter diagonal
+                        add(a, b, bc);
+                        add(a, bc, ca);
+                    } else {
+                        add(a, b, ca);
+                        add(b, bc, ca);
+                    }
+                }
+            }
+        }
+    }
+
+    float edge_length(const NodeMesh& mesh, std::uint32_t a, std::uint32_t b) const {
+        return glm::length(mesh.vertices[a].position - mesh.vertices[b].position);
+    }
+
+    void split_long_edges(NodeMesh& mesh) {
+        for (int level = 0; level < 16 && added_ < settings_.max_vertices; ++level) {
+            SplitSet split;
+            for (const Triangle& t : mesh.triangles) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::uint32_t a = t.v[k], b = t.v[(k + 1) % 3];
+                    if (edge_length(mesh, a, b) > settings_.base_edge) {
+                        const auto [it, fresh] =
+                            split.try_emplace(edge_key(mesh.vertices[a].weld, mesh.vertices[b].weld), mesh.welds);
+                        mesh.welds += fresh ? 1 : 0;
+                    }
+                }
+            }
+            if (split.empty()) {
+                break;
+            }
+            for (Triangle& t : mesh.triangles) {
+                t.open = true;
+            }
+            Middles middles;
+            cut(mesh, split, middles);
+        }
+        for (Triangle& t : mesh.triangles) {
+            t.open = true;
+        }
+    }
+
+    bool sample(const std::vector<Request>& requests, double from, double to) {
+        // In slices, so that progress can be told between parallel loops.
+        const std::size_t slice = std::max<std::size_t>(requests.size() / 20 + 1, 256);
+        for (std::size_t start = 0; start < requests.size(); start += slice) {
+            if (context_.should_stop()) {
+                return false;
+            }
+            const std::size_t end = std::min(start + slice, requests.size());
+            parallel_chunks(end - start, 32, [&](std::size_t b, std::size_t e, std::size_t) {
+                if (context_.should_stop()) {
+                    return;
+                }
+                for (std::size_t i = start + b; i < start + e; ++i) {
+                    sample_vertex(*requests[i].vertex);
+                }
+            });
+            context_.progress("layers", from + (to - from) * double(end) / double(requests.size()));
+        }
+        return !context_.should_stop();
+    }
+
+    void sample_vertex(Vertex& v) const {
+        const vec3 mean = v.triangles > 0.0F ? v.towards / v.triangles : vec3(0.0F);
+        const float length = glm::length(mean);
+        const vec3 p = length > 0.0F ? v.position + mean * std::min(0.1F, kPullIn / length) : v.position;
+        v.front = gather_.irradiance(p, v.normal, settings_.gather);
+        if (v.wants_back) {
+            v.back = gather_.irradiance(p, -v.normal, settings_.gather);
+        }
+    }
+
+    static float deviation(const DirectSample& a, const DirectSample& m, const DirectSample& b, float floor) {
+        const float la = luminance(a.irradiance), lm = luminance(m.irradiance), lb = luminance(b.irradiance);
+        const float mean = 0.5F * (la + lb);
+        return std::max(std::abs(lm - mean), 0.2F * std::abs(la - lb)) / std::max({mean, lm, floor});
+    }
+
+    // One level: samples the midpoints of all open edges, splits those that deviate. False when nothing was split.
+    bool split_by_contrast(double from, double to, bool& complete) {
+        struct Candidate {
+            std::size_t mesh;
+            std::uint32_t a, b; // vertex pair
+            Vertex middle;
+        };
+        std::vector<Candidate> candidates;
+        for (std::size_t m = 0; m < meshes_.size(); ++m) {
+            NodeMesh& mesh = meshes_[m];
+            std::unordered_map<std::uint64_t, std::size_t, PairHash> seen;
+            for (const Triangle& t : mesh.triangles) {
+                if (!t.open) {
+                    continue;
+                }
+                const vec3 centroid =
+                    (mesh.vertices[t.v[0]].position + mesh.vertices[t.v[1]].position + mesh.vertices[t.v[2]].position) /
+                    3.0F;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::uint32_t a = std::min(t.v[k], t.v[(k + 1) % 3]), b = std::max(t.v[k], t.v[(k + 1) % 3]);
+                    if (edge_length(mesh, a, b) <= 2.0F * settings_.smallest_edge) {
+                        continue;
+                    }
+                    const auto [it, fresh] = seen.try_emplace(edge_key(a, b), candidates.size());
+                    if (fresh) {
+                        candidates.push_back({m, a, b, midpoint(mesh.vertices[a], mesh.vertices[b])});
+                    }
+                    Vertex& middle = candidates[it->second].middle;
+                    middle.towards += centroid - middle.position;
+                    middle.triangles += 1.0F;
+                }
+            }
+        }
+        std::vector<Request> requests;
+        requests.reserve(candidates.size());
+        for (Candidate& c : candidates) {
+            requests.push_back({&c.middle});
+        }
+        complete = sample(requests, from, to);
+        if (!complete) {
+            return false;
+        }
+        std::vector<std::pair<float, std::size_t>> strong;
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            const Candidate& c = candidates[i];
+            const Vertex& a = meshes_[c.mesh].vertices[c.a];
+            const Vertex& b = meshes_[c.mesh].vertices[c.b];
+            float d = deviation(a.front, c.middle.front, b.front, settings_.light_floor);
+            if (a.wants_back) {
+                d = std::max(d, deviation(a.back, c.middle.back, b.back, settings_.light_floor));
+            }
+            if (d > settings_.contrast) {
+                strong.emplace_back(d, i);
+            }
+        }
+        if (strong.empty()) {
+            return false;
+        }
+        std::stable_sort(strong.begin(), strong.end(), [](const auto& p, const auto& q) { return p.first > q.first; });
+        strong.resize(std::min(strong.size(), settings_.max_vertices - std::min(settings_.max_vertices, added_)));
+        std::vector<SplitSet> split(meshes_.size());
+        std::vector<Middles> middles(meshes_.size());
+        for (const auto& [d, i] : strong) {
+            const Candidate& c = candidates[i];
+            NodeMesh& mesh = meshes_[c.mesh];
+            const auto [it, fresh] =
+                split[c.mesh].try_emplace(edge_key(mesh.vertices[c.a].weld, mesh.vertices[c.b].weld), mesh.welds);
+            mesh.welds += fresh ? 1 : 0;
+        }
+        // Sampled midpoints of every split edge are kept, also those of a coincident edge that asked for nothing itself.
+        for (const Candidate& c : candidates) {
+            NodeMesh& mesh = meshes_[c.mesh];
+            if (split[c.mesh].contains(edge_key(mesh.vertices[c.a].weld, mesh.vertices[c.b].weld))) {
+                middles[c.mesh][edge_key(c.a, c.b)] = std::uint32_t(mesh.vertices.size());
+                mesh.vertices.push_back(c.middle);
+                ++added_;
+            }
+        }
+        std::vector<Request> missing;
+        for (std::size_t m = 0; m < meshes_.size(); ++m) {
+            if (split[m].empty()) {
+                for (Triangle& t : meshes_[m].triangles) {
+                    t.open = false;
+                }
+                continue;
+            }
+            // A split edge may belong to a triangle that was closed before: open it again, or a T-vertex would stay.
+            NodeMesh& mesh = meshes_[m];
+            for (Triangle& t : mesh.triangles) {
+                for (std::size_t k = 0; k < 3 && !t.open; ++k) {
+                    t.open = split[m].contains(edge_key(mesh.vertices[t.v[k]].weld, mesh.vertices[t.v[(k + 1) % 3]].weld));
+                }
+            }
+            const std::size_t before = mesh.vertices.size();
+            cut(mesh, split[m], middles[m]);
+            for (std::size_t v = before; v < mesh.vertices.size(); ++v) {
+                missing.push_back({&mesh.vertices[v]});
+            }
+        }
+        complete = sample(missing, to, to);
+        return complete;
+    }
+
+    LayerSet finish() {
+        LayerSet out;
+        double error = 0.0, light = 0.0, area_sum = 0.0, log_sum = 0.0, log_area = 0.0;
+        out.surfaces.resize(rays_.surfaces().size());
+        for (NodeMesh& mesh : meshes_) {
+            std::map<std::uint32_t, std::vector<const Triangle*>> by_surface;
+            for (const Triangle& t : mesh.triangles) {
+                by_surface[t.surface].push_back(&t);
+            }
+            for (const auto& [s, triangles] : by_surface) {
+                const RaySurface& surface = rays_.surfaces()[s];
+                const MeshData& data = *surface.mesh;
+                auto layer = std::make_shared<SurfaceLayer>();
+                auto display = std::make_shared<DisplayMesh>();
+                layer->node = surface.node;
+                layer->part = surface.part;
+                std::unordered_map<std::uint32_t, std::uint32_t> index;
+                const Rgb rho = diffuse_reflectance(rays_.material(s));
+                for (const Triangle* t : triangles) {
+                    const auto& v = mesh.vertices;
+                    const float area = 0.5F * glm::length(glm::cross(v[t->v[1]].position - v[t->v[0]].position,
+                                                                     v[t->v[2]].position - v[t->v[0]].position));
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        // Mirrored nodes were turned round for the rays; the display mesh keeps the file's winding.
+                        const Vertex& vertex = v[t->v[surface.mirrored ? (3 - k) % 3 : k]];
+                        const std::uint32_t key = t->v[surface.mirrored ? (3 - k) % 3 : k];
+                        const auto [it, fresh] = index.try_emplace(key, std::uint32_t(display->positions.size()));
+                        if (fresh) {
+                            add_output(*display, *layer, data, vertex);
+                        }
+                        display->indices.push_back(it->second);
+                        const double w = area / 3.0;
+                        const double e = luminance(vertex.front.irradiance);
+                        error += w * vertex.front.variance;
+                        light += w * e;
+                        area_sum += w;
+                        const double radiance = luminance(rho * vertex.front.irradiance) / kPiD;
+                        if (radiance > 0.0) {
+                            log_sum += w * std::log(radiance);
+                            log_area += w;
+                        }
+                    }
+                }
+                out.vertices += display->positions.size();
+                layer->mesh = std::move(display);
+                out.surfaces[s] = std::move(layer);
+            }
+        }
+        std::erase(out.surfaces, nullptr);
+        out.error_estimate = light > 0.0 ? std::sqrt(error * area_sum) / light : 0.0;
+        out.mean_radiance = log_area > 0.0 ? std::exp(log_sum / log_area) : 0.0;
+        return out;
+    }
+
+    static void add_output(DisplayMesh& display, SurfaceLayer& layer, const MeshData& data, const Vertex& v) {
+        display.positions.push_back(v.local);
+        display.normals.push_back(v.local_normal);
+        if (!data.texcoords0.empty()) {
+            display.texcoords0.push_back(v.uv0);
+        }
+        if (!data.texcoords1.empty()) {
+            display.texcoords1.push_back(v.uv1);
+        }
+        if (!data.colors.empty()) {
+            display.colors.push_back(v.color);
+        }
+        layer.irradiance_front.push_back(v.front.irradiance);
+        if (v.wants_back) {
+            layer.irradiance_back.push_back(v.back.irradiance);
+        }
+    }
+
+    const RayScene& rays_;
+    const PointGather& gather_;
+    const LayerSettings& settings_;
+    const std::function<bool(std::uint32_t)>& back_lit_;
+    const RunContext& context_;
+    std::vector<NodeMesh> meshes_;
+    std::size_t added_ = 0;
+};
+
+} // namespace
+
+std::size_t LayerSet::memory_bytes() const {
+    std::size_t bytes = 0;
+    for (const auto& s : surfaces) {
+        bytes += s->mesh->positions.size() * (2 * sizeof(vec3) + 2 * sizeof(vec2)) +
+                 s->mesh->indices.size() * sizeof(std::uint32_t) +
+                 (s->irradiance_front.size() + s->irradiance_back.size()) * sizeof(Rgb);
+    }
+    return bytes;
+}
+
+LayerSet build_layers(const RayScene& rays, const PointGather& gather, const LayerSettings& settings,
+                      const std::function<bool(std::uint32_t)>& back_lit, const RunContext& context, double progress_from,
+                      double progress_to) {
+    return LayerBuild(rays, gather, settings, back_lit, context).run(progress_from, progress_to);
+}
+
+} // namespace atrium

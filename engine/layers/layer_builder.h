@@ -1,0 +1,40 @@
+// From a light field to what is shown: vertices where the light is sampled, more of them where it changes.
+#pragma once
+
+#include "engine/base/run_context.h"
+#include "engine/layers/surface_layer.h"
+#include "engine/radiosity/point_gather.h"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace atrium {
+
+struct LayerSettings {
+    float base_edge = 0.5F;             ///< metres: longer edges are always split
+    float smallest_edge = 0.04F;        ///< edges are not split below this
+    float contrast = 0.08F;             ///< relative deviation of a midpoint from its ends' mean that asks for a split
+    float light_floor = 1.0F;           ///< lux: differences are judged against at least this irradiance
+    std::size_t max_vertices = 600'000; ///< added vertices at most; the strongest contrasts first
+    GatherSettings gather;
+};
+
+/// What build_layers() makes.
+struct LayerSet {
+    std::vector<std::shared_ptr<const SurfaceLayer>> surfaces;
+    double error_estimate = 0.0; ///< area-weighted relative RMS of the vertices' own standard errors
+    double mean_radiance = 0.0;  ///< log-average of reflected radiance, cd/m2
+    std::size_t vertices = 0;
+    bool complete = false; ///< false when the context asked to stop
+    [[nodiscard]] std::size_t memory_bytes() const;
+};
+
+/// Samples irradiance on the vertices of all surfaces. Edges are split at their midpoint by a rule that looks at nothing but
+/// the edge, and coincident edges of one node are split together, so no T-vertex arises; triangles with one, two or three
+/// split edges become two, three or four. `back_lit(surface)` tells whether the back side can receive light at all.
+LayerSet build_layers(const RayScene& rays, const PointGather& gather, const LayerSettings& settings,
+                      const std::function<bool(std::uint32_t surface)>& back_lit, const RunContext& context,
+                      double progress_from, double progress_to);
+
+} // namespace atrium

@@ -1,0 +1,275 @@
+#include "engine/radiosity/links.h"
+
+#include "engine/base/parallel.h"
+#include "engine/base/rng.h"
+#include "engine/geometry/form_factor.h"
+
+#include <algorithm>
+
+namespace atrium {
+namespace {
+
+using Kind = Element::Kind;
+
+// Signed distance range of a patch's corners from another's plane, with a tolerance for coplanar neighbours.
+bool wholly_behind(const Element& what, const Element& plane) {
+    const float tolerance = 1e-5F * (what.radius + plane.radius);
+    return std::all_of(what.corner.begin(), what.corner.end(),
+                       [&](const vec3& p) { return glm::dot(p - plane.corner[0], plane.normal) <= tolerance; });
+}
+
+// Farthest that anything of `what` (a ball) may lie in front of a patch's plane.
+bool ball_behind(const Element& what, const Element& patch) {
+    return glm::dot(what.centre - patch.centre, patch.normal) <= -what.radius;
+}
+
+/// What refinement needs to know about a pair before any ray is shot.
+struct PairEstimate {
+    bool exchange = true;  ///< false: neither can see the other's front
+    float transfer = 0.0F; ///< unoccluded flux that one sends and the other reflects, lumen; the larger direction
+    float ratio = 1.0F;    ///< larger radius over distance, at most 1
+    bool overlap = false;  ///< balls meet: no single number describes the pair
+};
+
+PairEstimate estimate(const Hierarchy& h, const Element& a, const Element& b) {
+    PairEstimate out;
+    const bool pa = a.kind == Kind::Patch;
+    const bool pb = b.kind == Kind::Patch;
+    if ((pa && pb && (wholly_behind(a, b) || wholly_behind(b, a))) || (pa && !pb && ball_behind(b, a)) ||
+        (pb && !pa && ball_behind(a, b))) {
+        out.exchange = false;
+        return out;
+    }
+    const vec3 d = b.centre - a.centre;
+    const float r = glm::length(d);
+    const float reach = std::max(a.radius, b.radius);
+    out.overlap = r < a.radius + b.radius;
+    out.ratio = std::min(1.0F, reach / std::max(r, 1e-9F));
+    // An upper estimate of A_a F_ab: projected areas where they are known for a direction, whole areas when close.
+    float k = 0.0F;
+    if (out.overlap) {
+        k = std::min(a.area, b.area);
+    } else {
+        const vec3 w = d / r;
+        const float slack = out.ratio; // cosines change by about this much over the pair
+        const float area_a = std::min(projected_area(h, a, w) + slack * a.area * 0.5F, a.area);
+        const float area_b = std::min(projected_area(h, b, -w) + slack * b.area * 0.5F, b.area);
+        k = area_a * area_b / (kPi * r * r + std::max(a.area, b.area));
+    }
+    const Rgb sent_to_a = a.rho * b.radiosity;
+    const Rgb sent_to_b = b.rho * a.radiosity;
+    out.transfer = k * std::max(max_component(sent_to_a), max_component(sent_to_b));
+    return out;
+}
+
+float patch_pair_weight(const Hierarchy&, const RayScene& rays, const Element& a, const Element& b, unsigned ray_count) {
+    // Sample points on the smaller patch, closed form over the larger: the closed form carries the strong variation.
+    const bool a_small = a.area <= b.area;
+    const Element& from = a_small ? a : b;
+    const Element& to = a_small ? b : a;
+    const float r = glm::length(a.centre - b.centre);
+    const float ratio = std::max(a.radius, b.radius) / std::max(r, 1e-9F);
+    const unsigned points = ratio < 0.1F ? 1U : (ratio < 0.35F ? 4U : 16U);
+    double factor = 0.0;
+    for (unsigned i = 0; i < points; ++i) {
+        vec2 u(1.0F / 3.0F);
+        if (points > 1) {
+            u = sobol_owen2(i, 0, 17U);
+            if (u.x + u.y > 1.0F) {
+                u = vec2(1.0F) - u;
+            }
+        }
+        const vec3 x = from.corner[0] + (from.corner[1] - from.corner[0]) * u.x + (from.corner[2] - from.corner[0]) * u.y;
+        if (glm::dot(x - to.corner[0], to.normal) > 0.0F) {
+            factor += form_factor_to_polygon(x, from.normal, to.corner);
+        }
+    }
+    factor /= points;
+    if (factor <= 0.0) {
+        return 0.0F;
+    }
+    const auto seed = std::uint32_t(hash_combine(a.path, b.path));
+    double seen = 0.0;
+    double total = 0.0;
+    for (unsigned i = 0; i < ray_count; ++i) {
+        const auto on = [&](const Element& e, unsigned dimension) {
+            vec2 u = sobol_owen2(i, dimension, seed);
+            if (u.x + u.y > 1.0F) {
+                u = vec2(1.0F) - u;
+            }
+            u = vec2(0.01F / 3.0F) + u * 0.99F;
+            return e.corner[0] + (e.corner[1] - e.corner[0]) * u.x + (e.corner[2] - e.corner[0]) * u.y;
+        };
+        const vec3 x = on(a, 0);
+        const vec3 y = on(b, 2);
+        const vec3 d = y - x;
+        const float d2 = glm::dot(d, d);
+        const float ca = glm::dot(d, a.normal);
+        const float cb = -glm::dot(d, b.normal);
+        if (ca <= 0.0F || cb <= 0.0F) {
+            continue;
+        }
+        const double kernel = double(ca) * cb / (double(d2) * (kPi * d2 + from.area));
+        total += kernel;
+        seen += kernel * luminance(rays.transmittance(x, y));
+    }
+    return total > 0.0 ? float(double(from.area) * factor * (seen / total)) : 0.0F;
+}
+
+float general_weight(const Hierarchy& h, const RayScene& rays, std::uint32_t ia, std::uint32_t ib, unsigned ray_count) {
+    const Element& a = h.elements[ia];
+    const Element& b = h.elements[ib];
+    const float r = glm::length(a.centre - b.centre);
+    // Balls that meet: the distance of two typical points inside keeps the kernel finite.
+    const float safe_r2 = std::max(r * r, 0.25F * (a.radius + b.radius) * (a.radius + b.radius));
+    const auto seed = std::uint32_t(hash_combine(a.path, b.path));
+    double seen = 0.0;
+    double total = 0.0;
+    for (unsigned i = 0; i < ray_count; ++i) {
+        const SurfacePoint x = sample_point(h, rays, ia, sobol_owen2(i, 0, seed), false);
+        const SurfacePoint y = sample_point(h, rays, ib, sobol_owen2(i, 2, seed), false);
+        const vec3 d = y.position - x.position;
+        const float ca = glm::dot(d, x.normal);
+        const float cb = -glm::dot(d, y.normal);
+        if (ca <= 0.0F || cb <= 0.0F) {
+            continue; // points that face away are not part of the projected areas
+        }
+        const double kernel = double(ca) * cb / std::max(double(glm::dot(d, d)), 1e-12);
+        total += kernel;
+        seen += kernel * luminance(rays.transmittance(x.position, y.position));
+    }
+    const double visible = total > 0.0 ? seen / total : 0.0;
+    return float(visible / (kPiD * safe_r2));
+}
+
+} // namespace
+
+float projected_area(const Hierarchy& hierarchy, const Element& element, const vec3& d) {
+    if (element.kind == Kind::Patch) {
+        return element.area * std::max(glm::dot(element.normal, d), 0.0F);
+    }
+    return std::max(sh_dot(hierarchy.harmonics[element.harmonics].projected_area, sh_basis(d)), 0.0F);
+}
+
+LinkSet::LinkSet(const Hierarchy& hierarchy) {
+    if (!hierarchy.empty()) {
+        self_pairs_.push_back(0);
+    }
+}
+
+std::size_t LinkSet::refine(Hierarchy& h, const RayScene& rays, const RefineSettings& settings, const RunContext& context) {
+    double flux = 0.0;
+    for (const Element& e : h.elements) {
+        if (e.leaf()) {
+            flux += double(e.area) * luminance(e.emitted + e.rho * e.direct);
+        }
+    }
+    const auto threshold = float(flux * settings.flux_threshold);
+
+    struct Fresh {
+        std::size_t link;
+        unsigned rays;
+    };
+    std::vector<Link> kept;
+    std::vector<Fresh> fresh;
+    kept.reserve(links_.size());
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> open;
+    const auto push_children = [&](std::uint32_t divided, std::uint32_t other) {
+        for (std::uint32_t k = 0; k < h.elements[divided].child_count; ++k) {
+            open.emplace_back(h.elements[divided].first_child + k, other);
+        }
+    };
+    // Tells what becomes of a pair: nothing, a link (true), or its parts pushed on `open`.
+    const auto decide = [&](std::uint32_t ia, std::uint32_t ib, float& transfer) {
+        const PairEstimate pair = estimate(h, h.elements[ia], h.elements[ib]);
+        transfer = pair.transfer;
+        if (!pair.exchange) {
+            return false;
+        }
+        const bool both_patches = h.elements[ia].kind == Kind::Patch && h.elements[ib].kind == Kind::Patch;
+        // Uncertain share of the transfer: grows with the solid angle; clusters are described by fewer numbers than patches.
+        const float uncertain = std::min(1.0F, (both_patches ? 1.0F : 4.0F) * pair.ratio * pair.ratio + 0.02F);
+        const bool meets = pair.overlap && !both_patches;
+        const bool too_coarse = pair.transfer * uncertain > threshold || (meets && pair.transfer > 0.05F * threshold);
+        if (!too_coarse || kept.size() + open.size() >= settings.max_links) {
+            return true;
+        }
+        const auto divisible = [&](std::uint32_t i) { return !h.elements[i].leaf() || h.can_split(i); };
+        const auto extent = [&](std::uint32_t i) { return h.elements[i].radius; };
+        std::uint32_t first = extent(ia) >= extent(ib) ? ia : ib;
+        std::uint32_t second = first == ia ? ib : ia;
+        if (!divisible(first)) {
+            std::swap(first, second);
+        }
+        if (!divisible(first)) {
+            return true;
+        }
+        if (h.elements[first].leaf()) {
+            const Rgb radiosity = h.elements[first].radiosity;
+            h.split(first, rays);
+            for (std::uint32_t k = 0; k < 4; ++k) {
+                h.elements[h.elements[first].first_child + k].radiosity = radiosity;
+            }
+        }
+        push_children(first, second);
+        return false;
+    };
+    const auto drain = [&] {
+        while (!open.empty()) {
+            const auto [ia, ib] = open.back();
+            open.pop_back();
+            float transfer = 0.0F;
+            if (decide(ia, ib, transfer)) {
+                const float strength = threshold > 0.0F ? transfer / threshold : 0.0F;
+                const unsigned count = transfer <= 0.0F   ? std::max(settings.rays / 2, 1U)
+                                       : strength > 2.0F  ? settings.rays * 4
+                                       : strength > 0.25F ? settings.rays
+                                                          : std::max(settings.rays / 2, 1U);
+                fresh.push_back({kept.size(), count});
+                kept.push_back({std::min(ia, ib), std::max(ia, ib), 0.0F});
+            }
+        }
+    };
+
+    for (const Link& link : links_) {
+        float transfer = 0.0F;
+        if (decide(link.a, link.b, transfer)) {
+            kept.push_back(link);
+        }
+        drain();
+    }
+    // Exchange inside an element: opened down to the leaves, which do not light themselves.
+    while (!self_pairs_.empty()) {
+        const std::uint32_t i = self_pairs_.back();
+        self_pairs_.pop_back();
+        const Element e = h.elements[i];
+        if (e.kind != Kind::Cluster) {
+            continue; // patches are flat; the inner exchange of a handful of faces is below what we resolve
+        }
+        for (std::uint32_t k = 0; k < e.child_count; ++k) {
+            self_pairs_.push_back(e.first_child + k);
+            for (std::uint32_t l = k + 1; l < e.child_count; ++l) {
+                open.emplace_back(e.first_child + k, e.first_child + l);
+            }
+        }
+        drain();
+    }
+
+    parallel_chunks(fresh.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
+        if (context.should_stop()) {
+            return;
+        }
+        for (std::size_t i = begin; i < end; ++i) {
+            Link& link = kept[fresh[i].link];
+            const Element& a = h.elements[link.a];
+            const Element& b = h.elements[link.b];
+            link.weight = a.kind == Kind::Patch && b.kind == Kind::Patch
+                              ? patch_pair_weight(h, rays, a, b, fresh[i].rays)
+                              : general_weight(h, rays, link.a, link.b, fresh[i].rays);
+        }
+    });
+    links_ = std::move(kept);
+    return fresh.size();
+}
+
+} // namespace atrium

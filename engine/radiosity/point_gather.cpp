@@ -1,0 +1,173 @@
+#include "engine/radiosity/point_gather.h"
+
+#include "engine/base/rng.h"
+#include "engine/geometry/form_factor.h"
+
+#include <algorithm>
+
+namespace atrium {
+namespace {
+
+using Kind = Element::Kind;
+
+/// One element of the cut.
+struct CutNode {
+    std::uint32_t element = 0;
+    Rgb contribution{0.0F}; ///< unoccluded irradiance
+    float error = 0.0F;     ///< of its luminance, unoccluded; what refinement goes by
+};
+
+struct Point {
+    vec3 position;
+    vec3 normal;
+};
+
+Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e, const Point& p) {
+    Rgb sum(0.0F);
+    for (std::uint32_t f = e.triangle; f < e.triangle + e.face_count; ++f) {
+        const Face& face = h.faces[f];
+        const auto corner = rays.triangle(face.surface, face.triangle);
+        if (glm::dot(p.position - corner[0], face.normal) > 0.0F) {
+            sum += e.radiosity * float(form_factor_to_polygon(p.position, p.normal, corner));
+        }
+    }
+    return sum;
+}
+
+CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, const Point& p) {
+    const Element& e = h.elements[index];
+    CutNode out;
+    out.element = index;
+    if (!(e.power > 0.0F)) {
+        return out;
+    }
+    const vec3 d = e.centre - p.position;
+    if (glm::dot(d, p.normal) <= -e.radius) {
+        return out; // below the horizon
+    }
+    if (e.kind == Kind::Patch) {
+        if (glm::dot(p.position - e.corner[0], e.normal) <= 0.0F) {
+            return out;
+        }
+        const auto factor = float(form_factor_to_polygon(p.position, p.normal, e.corner));
+        out.contribution = e.radiosity * factor;
+        out.error = e.leaf() ? 0.0F : factor * e.spread;
+        return out;
+    }
+    const float r = glm::length(d);
+    if (e.kind == Kind::Faces) {
+        if (r < 4.0F * e.radius) {
+            out.contribution = faces_one_by_one(h, rays, e, p);
+            return out;
+        }
+    } else if (r < 1.5F * e.radius) {
+        out.error = std::numeric_limits<float>::max(); // inside or beside it: no direction describes it
+        return out;
+    }
+    const vec3 w = d / r;
+    const float cosine = glm::dot(p.normal, w);
+    const Rgb towards = glm::max(sh_dot(h.harmonics[e.harmonics].emission, sh_basis(-w)), Rgb(0.0F));
+    const float kernel = 1.0F / (kPi * r * r);
+    out.contribution = towards * (kernel * std::max(cosine, 0.0F));
+    if (!e.leaf()) {
+        const float ratio = e.radius / r;
+        // Cosine and distance vary by about `ratio` over the element, visibility by anything.
+        const float bound =
+            std::max(luminance(towards), 0.1F * e.power) * kernel * std::min(std::max(cosine, 0.0F) + ratio, 1.0F);
+        out.error = bound * ratio;
+    }
+    return out;
+}
+
+} // namespace
+
+DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, const GatherSettings& settings) const {
+    DirectSample out;
+    if (!direct_.empty()) {
+        out = direct_.irradiance(point, normal, settings.sun_rays, settings.sky_rays);
+    }
+    if (h_.empty() || !(h_.elements[0].power > 0.0F)) {
+        return out;
+    }
+    const Point p{point, normal};
+    const auto smaller_error = [](const CutNode& a, const CutNode& b) {
+        return a.error < b.error || (a.error == b.error && a.element > b.element);
+    };
+    std::vector<CutNode> cut{evaluate(h_, rays_, 0, p)};
+    std::vector<CutNode> done; // nothing below them would change the result
+    float total = luminance(cut[0].contribution + out.irradiance);
+    while (!cut.empty() && cut.size() + done.size() < settings.max_cut) {
+        const CutNode top = cut.front();
+        if (top.error <= settings.tolerance * total) {
+            break;
+        }
+        std::pop_heap(cut.begin(), cut.end(), smaller_error);
+        cut.pop_back();
+        total -= luminance(top.contribution);
+        const Element& e = h_.elements[top.element];
+        for (std::uint32_t k = 0; k < e.child_count; ++k) {
+            const CutNode child = evaluate(h_, rays_, e.first_child + k, p);
+            const float light = luminance(child.contribution);
+            total += light;
+            if (child.error > 0.0F) {
+                cut.push_back(child);
+                std::push_heap(cut.begin(), cut.end(), smaller_error);
+            } else if (light > 0.0F) {
+                done.push_back(child);
+            }
+        }
+    }
+    done.insert(done.end(), cut.begin(), cut.end());
+    float unoccluded = 0.0F;
+    for (const CutNode& node : done) {
+        unoccluded += luminance(node.contribution);
+    }
+    if (!(unoccluded > 0.0F)) {
+        return out;
+    }
+    for (const CutNode& node : done) {
+        const float share = luminance(node.contribution) / unoccluded;
+        if (!(share > 0.0F)) {
+            continue;
+        }
+        const auto count = std::max(1U, unsigned(std::lround(share * float(settings.rays))));
+        const auto seed = std::uint32_t(hash64(h_.elements[node.element].path));
+        Rgb seen(0.0F);
+        float total_weight = 0.0F;
+        float clear = 0.0F;
+        // The same points for every receiver: shadows get a few fine steps instead of noise. Points that face away are
+        // passed over, up to four tries for each ray.
+        unsigned shot = 0;
+        for (unsigned i = 0; shot < count && i < 4 * count; ++i) {
+            const SurfacePoint y = sample_point(h_, rays_, node.element, sobol_owen2(i, 0, seed), true);
+            const vec3 d = y.position - point;
+            const float d2 = glm::dot(d, d);
+            const float cp = glm::dot(d, normal);
+            const float cy = -glm::dot(d, y.normal);
+            if (cp <= 0.0F || cy <= 0.0F || d2 <= 0.0F) {
+                continue;
+            }
+            ++shot;
+            // A floor on the distance keeps one near sample from deciding everything.
+            const float near2 = std::max(d2, 0.01F * h_.elements[node.element].area);
+            const float weight = cp * cy / (d2 * near2);
+            const Rgb through = rays_.transmittance(point, y.position);
+            seen += through * weight;
+            clear += max_component(through) > 0.0F ? 1.0F : 0.0F;
+            total_weight += weight;
+        }
+        if (total_weight > 0.0F) {
+            out.irradiance += node.contribution * seen / total_weight;
+            const auto n = float(shot);
+            const float light = luminance(node.contribution);
+            if (n > 1.0F && clear > 0.0F && clear < n) {
+                out.variance += light * light * (clear + 1.0F) * (n - clear + 1.0F) / ((n + 2.0F) * (n + 2.0F) * n);
+            } else if (n <= 1.0F) {
+                out.variance += light * light * 0.08F; // one ray: half-way between certain and unknown
+            }
+        }
+    }
+    return out;
+}
+
+} // namespace atrium

@@ -1,0 +1,34 @@
+// Irradiance at a point from the solved hierarchy: a cut through the tree of elements, closer where it matters, with
+// visibility rays where the light comes from.
+#pragma once
+
+#include "engine/radiosity/direct_light.h"
+#include "engine/radiosity/hierarchy.h"
+
+namespace atrium {
+
+struct GatherSettings {
+    float tolerance = 0.01F; ///< error of one element of the cut relative to the point's whole irradiance
+    unsigned max_cut = 400;  ///< elements in a cut at most
+    unsigned rays = 96;      ///< visibility rays shared out over the cut by contribution
+    unsigned sun_rays = 16;
+    unsigned sky_rays = 128;
+};
+
+/// Safe from any thread while the hierarchy does not change.
+class PointGather {
+public:
+    PointGather(const Hierarchy& hierarchy, const RayScene& rays, const DirectLight& direct)
+        : h_(hierarchy), rays_(rays), direct_(direct) {}
+
+    /// Irradiance on a small plane at `point` (engine coordinates) with unit `normal`, surfaces, sun, sky and lamps
+    /// together.
+    [[nodiscard]] DirectSample irradiance(const vec3& point, const vec3& normal, const GatherSettings& settings) const;
+
+private:
+    const Hierarchy& h_;
+    const RayScene& rays_;
+    const DirectLight& direct_;
+};
+
+} // namespace atrium

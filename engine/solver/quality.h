@@ -1,0 +1,28 @@
+// What "draft", "normal" and "fine" mean: every number of the solver that depends on the wish for quality, in one place.
+#pragma once
+
+#include "engine/layers/layer_builder.h"
+#include "engine/radiosity/links.h"
+#include "engine/scene/scene.h"
+
+namespace atrium {
+
+struct QualitySettings {
+    HierarchySettings hierarchy;
+    RefineSettings refine;
+    LayerSettings first_layers; ///< of the first picture
+    LayerSettings layers;
+    int refine_rounds = 2;          ///< refinements, each followed by a solve
+    double solver_tolerance = 1e-4; ///< relative residual
+    int max_iterations = 400;
+    unsigned leaf_samples = 4; ///< direct-light samples on a leaf
+};
+
+/// Settings for a scene whose bounds have the given diagonal (metres). Lengths follow the scene within the limits of rooms:
+/// a model of 0.5 m and a hall of 50 m get elements in proportion. `target_error` (relative, 0 = none) tightens or relaxes
+/// the sampling of the quality by the square of the ratio.
+QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal, double target_error);
+
+const char* quality_name(SolverSettings::Quality quality);
+
+} // namespace atrium
