@@ -77,9 +77,8 @@ int main(int argc, char** argv) {
     const QCommandLineOption screenshot(QStringLiteral("screenshot"),
                                         QObject::tr("open, wait for the light, save a picture of the window, quit"),
                                         QStringLiteral("FILE.png"));
-    const QCommandLineOption wait(QStringLiteral("screenshot-time"),
-                                  QObject::tr("wait at most this long for the light"), QStringLiteral("SECONDS"),
-                                  QStringLiteral("60"));
+    const QCommandLineOption wait(QStringLiteral("screenshot-time"), QObject::tr("wait at most this long for the light"),
+                                  QStringLiteral("SECONDS"), QStringLiteral("60"));
     const QCommandLineOption size(QStringLiteral("window-size"), QObject::tr("size of the window in points"),
                                   QStringLiteral("WxH"));
     const QCommandLineOption sample(QStringLiteral("sample"), QObject::tr("open the sample room"));

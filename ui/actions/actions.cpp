@@ -81,8 +81,7 @@ Actions::Actions(QObject* parent) : QObject(parent) {
         action->setCheckable(info.checkable);
         action->setStatusTip(translated(info.tip));
         const QString key = action->shortcut().toString(QKeySequence::NativeText);
-        action->setToolTip(key.isEmpty() ? translated(info.tip)
-                                         : QStringLiteral("%1 (%2)").arg(translated(info.tip), key));
+        action->setToolTip(key.isEmpty() ? translated(info.tip) : QStringLiteral("%1 (%2)").arg(translated(info.tip), key));
         actions_[std::size_t(info.id)] = action;
     }
     actions_[std::size_t(ActionId::Quit)]->setMenuRole(QAction::QuitRole);

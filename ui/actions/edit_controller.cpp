@@ -48,8 +48,7 @@ void EditController::duplicate() {
     if (nothing_selected()) {
         return;
     }
-    const Command command =
-        duplicate_nodes(document_.scene(), document_.selection()->top_level(document_.scene()));
+    const Command command = duplicate_nodes(document_.scene(), document_.selection()->top_level(document_.scene()));
     if (apply(command.edit, tr("Duplicate"))) {
         document_.selection()->set(command.select);
     }
@@ -98,8 +97,8 @@ void EditController::group() {
     if (nothing_selected()) {
         return;
     }
-    const Command command = group_nodes(document_.scene(), document_.selection()->top_level(document_.scene()),
-                                        tr("Group").toStdString());
+    const Command command =
+        group_nodes(document_.scene(), document_.selection()->top_level(document_.scene()), tr("Group").toStdString());
     if (apply(command.edit, tr("Group"))) {
         document_.selection()->set(command.select);
     }
@@ -142,8 +141,8 @@ void EditController::add_camera_here(const ViewCamera& camera) {
 }
 
 void EditController::fix_import(const ImportSuggestion& suggestion) {
-    const Command command = wrap_roots(document_.scene(), suggestion.unit_scale, suggestion.z_up,
-                                       tr("Import correction").toStdString());
+    const Command command =
+        wrap_roots(document_.scene(), suggestion.unit_scale, suggestion.z_up, tr("Import correction").toStdString());
     apply(command.edit, tr("Correct units and direction"));
 }
 

@@ -119,8 +119,8 @@ void Document::commit_gesture() {
     gesture_done_.clear();
     gesture_inverse_.clear();
     // When every inverse is what the scene already holds, the gesture ended where it began.
-    const bool null = std::all_of(inverse.begin(), inverse.end(),
-                                  [this](const SceneEdit& edit) { return changes_nothing(scene_, edit); });
+    const bool null =
+        std::all_of(inverse.begin(), inverse.end(), [this](const SceneEdit& edit) { return changes_nothing(scene_, edit); });
     if (!null) {
         undo_.push(new EditCommand(*this, as_one(std::move(forward)), as_one(std::move(inverse)), gesture_text_));
     }

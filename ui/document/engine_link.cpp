@@ -9,7 +9,8 @@ EngineLink::EngineLink(Document& document, QObject* parent) : QObject(parent), d
     session_ = std::make_unique<EngineSession>([this] {
         // Engine thread. However much news there is, one event waits in the UI's queue.
         if (!wake_queued_.exchange(true)) {
-            QMetaObject::invokeMethod(this, [this] { on_wake(); }, Qt::QueuedConnection);
+            QMetaObject::invokeMethod(
+                this, [this] { on_wake(); }, Qt::QueuedConnection);
         }
     });
     connect(&document_, &Document::reset_done, this, [this] {

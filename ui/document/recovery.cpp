@@ -21,8 +21,7 @@ constexpr int kIntervalMs = 120000;
 } // namespace
 
 Recovery::Recovery(Document& document, const QString& directory, QObject* parent)
-    : QObject(parent), document_(document), directory_(directory),
-      epoch_(std::make_shared<std::atomic<std::uint64_t>>(0)) {
+    : QObject(parent), document_(document), directory_(directory), epoch_(std::make_shared<std::atomic<std::uint64_t>>(0)) {
     QDir().mkpath(directory_);
     base_ = directory_ + QLatin1Char('/') + QUuid::createUuid().toString(QUuid::WithoutBraces);
     lock_ = std::make_unique<QLockFile>(base_ + QStringLiteral(".lock"));
@@ -66,11 +65,10 @@ std::vector<RecoveredFile> Recovery::orphans() const {
             continue;
         }
         const QJsonObject object = QJsonDocument::fromJson(journal.readAll()).object();
-        found.push_back({scene.filePath(), journal.fileName(), object[QLatin1StringView("original")].toString(),
-                         scene.lastModified()});
+        found.push_back(
+            {scene.filePath(), journal.fileName(), object[QLatin1StringView("original")].toString(), scene.lastModified()});
     }
-    std::sort(found.begin(), found.end(),
-              [](const RecoveredFile& a, const RecoveredFile& b) { return a.date > b.date; });
+    std::sort(found.begin(), found.end(), [](const RecoveredFile& a, const RecoveredFile& b) { return a.date > b.date; });
     return found;
 }
 
@@ -117,8 +115,8 @@ void Recovery::write() {
     const QByteArray note = QJsonDocument(journal).toJson();
     run_in_background(
         this,
-        [scene = document_.scene(), file = path(), journal_file = base_ + QStringLiteral(".json"),
-         note, epoch, latest = epoch_]() -> Result<bool> {
+        [scene = document_.scene(), file = path(), journal_file = base_ + QStringLiteral(".json"), note, epoch,
+         latest = epoch_]() -> Result<bool> {
             if (auto done = write_scene(file.toStdString(), scene); !done) {
                 return tl::unexpected<Error>(done.error());
             }

@@ -38,9 +38,9 @@ private:
     std::vector<SceneEdit> edits_;
 };
 
-const dquat kLieDown = glm::angleAxis(-kPiD / 2, dvec3(1, 0, 0));  // local +z to world +y
-const dquat kFaceDown = glm::angleAxis(kPiD / 2, dvec3(1, 0, 0));  // local +z to world -y
-constexpr double kLampHeight = 2.2;                                // metres above the floor
+const dquat kLieDown = glm::angleAxis(-kPiD / 2, dvec3(1, 0, 0)); // local +z to world +y
+const dquat kFaceDown = glm::angleAxis(kPiD / 2, dvec3(1, 0, 0)); // local +z to world -y
+constexpr double kLampHeight = 2.2;                               // metres above the floor
 
 Polygon rectangle(float width, float depth) {
     const float x = width / 2;
@@ -236,8 +236,8 @@ Command duplicate_nodes(const Scene& scene, const std::vector<NodeId>& nodes) {
         }
         const NodeId parent = node->parent;
         const std::size_t at = index_in(siblings(builder.scene(), parent), id);
-        copies.push_back(copy_subtree(builder, id, parent, at == SIZE_MAX ? SIZE_MAX : at + 1,
-                                      free_name(builder.scene(), node->name)));
+        copies.push_back(
+            copy_subtree(builder, id, parent, at == SIZE_MAX ? SIZE_MAX : at + 1, free_name(builder.scene(), node->name)));
     }
     return {builder.finish(), copies};
 }

@@ -200,8 +200,8 @@ void JobsPanel::refresh_figures() {
     auto* left_out = row(tr("Left out"), QString());
     auto* used = row(tr("In use"), QString());
     for (const Feature& feature : s.features) {
-        auto* item = new QTreeWidgetItem(
-            {QString::fromStdString(feature.name).replace(QLatin1Char('_'), QLatin1Char(' ')), QString::fromStdString(feature.why)});
+        auto* item = new QTreeWidgetItem({QString::fromStdString(feature.name).replace(QLatin1Char('_'), QLatin1Char(' ')),
+                                          QString::fromStdString(feature.why)});
         item->setToolTip(1, item->text(1));
         (feature.used ? used : left_out)->addChild(item);
     }

@@ -73,9 +73,9 @@ void NumberField::attach_label(QLabel* label) {
 }
 
 void NumberField::show_value() {
-    const QString text = mixed_ ? QString()
-                                : QString::fromStdString(format_number(value_ * format_.display_factor, format_.decimals)) +
-                                      format_.suffix;
+    const QString text =
+        mixed_ ? QString()
+               : QString::fromStdString(format_number(value_ * format_.display_factor, format_.decimals)) + format_.suffix;
     setPlaceholderText(mixed_ ? tr("mixed") : QString());
     if (text != this->text()) {
         setText(text);
@@ -108,17 +108,17 @@ bool NumberField::commit_text() {
         const auto shown = [this](double limit) {
             return QString::fromStdString(format_number(limit * format_.display_factor, format_.decimals)) + format_.suffix;
         };
-        show_problem(tr("Not changed: the value must lie between %1 and %2.")
-                         .arg(shown(format_.minimum), shown(format_.maximum)));
+        show_problem(
+            tr("Not changed: the value must lie between %1 and %2.").arg(shown(format_.minimum), shown(format_.maximum)));
         return false;
     }
     typing_ = false;
     setToolTip({});
     // What is shown is rounded: typing the same text again must not round the value behind it.
     const std::string typed = format_number(value * format_.display_factor, format_.decimals);
-    const bool same = !mixed_ && (value == value_ ||
-                                  (typed == format_number(value_ * format_.display_factor, format_.decimals) &&
-                                   std::abs(value - value_) < 0.51 * std::pow(10.0, -format_.decimals)));
+    const bool same =
+        !mixed_ && (value == value_ || (typed == format_number(value_ * format_.display_factor, format_.decimals) &&
+                                        std::abs(value - value_) < 0.51 * std::pow(10.0, -format_.decimals)));
     if (!same) {
         value_ = value;
         mixed_ = false;

@@ -16,9 +16,9 @@ struct NumberFormat {
     int decimals = 3;
     double minimum = -1e9;
     double maximum = 1e9;
-    double step = 0.1;             ///< one wheel notch
-    bool proportional = false;     ///< a notch is a tenth of the value: for quantities over many magnitudes
-    double display_factor = 1.0;   ///< shown = value * this (percent: 100); what is typed is divided by it
+    double step = 0.1;           ///< one wheel notch
+    bool proportional = false;   ///< a notch is a tenth of the value: for quantities over many magnitudes
+    double display_factor = 1.0; ///< shown = value * this (percent: 100); what is typed is divided by it
 
     static NumberFormat length(double minimum = -1e6);
     static NumberFormat angle();

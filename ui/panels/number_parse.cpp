@@ -24,9 +24,9 @@ struct Term {
 /// ASCII form: typographic minus, primes, quotes, degree and no-break spaces become what a keyboard has.
 std::string plain_ascii(std::string_view text) {
     static const std::pair<std::string_view, std::string_view> kTable[] = {
-        {"\u2212", "-"}, {"\u2013", "-"}, {"\u2032", "'"},  {"\u2019", "'"}, {"\u2033", "\""}, {"\u201d", "\""},
-        {"\u00b0", "deg"}, {"\u00a0", " "}, {"\u202f", " "}, {"\u00b2", "2"}, {"\u00bd", " 1/2"}, {"\u00bc", " 1/4"},
-        {"\u00be", " 3/4"}};
+        {"\u2212", "-"},    {"\u2013", "-"},    {"\u2032", "'"},   {"\u2019", "'"}, {"\u2033", "\""},
+        {"\u201d", "\""},   {"\u00b0", "deg"},  {"\u00a0", " "},   {"\u202f", " "}, {"\u00b2", "2"},
+        {"\u00bd", " 1/2"}, {"\u00bc", " 1/4"}, {"\u00be", " 3/4"}};
     std::string out;
     for (std::size_t i = 0; i < text.size();) {
         bool replaced = false;

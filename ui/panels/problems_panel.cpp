@@ -82,8 +82,8 @@ void ProblemsPanel::fill(const std::vector<Problem>& found) {
         if (rows.size() >= kMaxRows) {
             continue;
         }
-        auto* row = new QTreeWidgetItem(
-            {QString::fromStdString(problem.where), QString::fromStdString(problem.what), QString::fromStdString(problem.hint)});
+        auto* row = new QTreeWidgetItem({QString::fromStdString(problem.where), QString::fromStdString(problem.what),
+                                         QString::fromStdString(problem.hint)});
         row->setIcon(0, tinted_icon(QLatin1StringView(severity_name(problem.severity))));
         row->setData(0, Qt::UserRole, problem.node.slot);
         row->setData(0, Qt::UserRole + 1, problem.node.generation);

@@ -147,8 +147,8 @@ void SceneTreePanel::on_clicked(const QModelIndex& index) {
     const std::vector<NodeId> nodes =
         document_.selection()->contains(id) ? document_.selection()->nodes() : std::vector<NodeId>{id};
     const bool eye = index.column() == SceneTreeModel::Visible;
-    const SceneEdit edit = eye ? set_visible(document_.scene(), nodes, !node->visible)
-                               : set_locked(document_.scene(), nodes, !node->locked);
+    const SceneEdit edit =
+        eye ? set_visible(document_.scene(), nodes, !node->visible) : set_locked(document_.scene(), nodes, !node->locked);
     const QString text = eye ? (node->visible ? tr("Hide") : tr("Show")) : (node->locked ? tr("Unlock") : tr("Lock"));
     if (const auto done = document_.apply(edit, text); !done) {
         Q_EMIT message(QString::fromStdString(done.error().message()));

@@ -58,7 +58,8 @@ Result<Opened> read_file(const QString& path) {
 }
 
 QString open_filter() {
-    return FileController::tr("Scenes (*.atrium *.gltf *.glb);;Atrium projects (*.atrium);;glTF (*.gltf *.glb);;All files (*)");
+    return FileController::tr(
+        "Scenes (*.atrium *.gltf *.glb);;Atrium projects (*.atrium);;glTF (*.gltf *.glb);;All files (*)");
 }
 
 } // namespace
@@ -194,8 +195,7 @@ void FileController::import(const QString& path) {
                 return;
             }
             Settings().set_last_folder(info.absolutePath());
-            const Command command =
-                merge_scene(document_.scene(), result->scene, info.completeBaseName().toStdString());
+            const Command command = merge_scene(document_.scene(), result->scene, info.completeBaseName().toStdString());
             const auto done = document_.apply(command.edit, tr("Import %1").arg(info.fileName()));
             if (!done) {
                 show_error(tr("%1 could not be imported").arg(info.fileName()), done.error());

@@ -41,8 +41,9 @@ public:
                 continue;
             }
             const QString key = action->shortcut().toString(QKeySequence::NativeText);
-            auto* item = new QListWidgetItem(action->icon(), key.isEmpty() ? plain_text(action->text())
-                                                                           : QStringLiteral("%1   (%2)").arg(plain_text(action->text()), key));
+            auto* item = new QListWidgetItem(
+                action->icon(), key.isEmpty() ? plain_text(action->text())
+                                              : QStringLiteral("%1   (%2)").arg(plain_text(action->text()), key));
             item->setToolTip(action->statusTip());
             item->setData(Qt::UserRole, QVariant::fromValue(static_cast<QObject*>(action)));
             list_->addItem(item);

@@ -54,12 +54,16 @@ const std::pair<ActionId, ToolKind> kTools[] = {{ActionId::ToolSelect, ToolKind:
                                                 {ActionId::ToolRotate, ToolKind::Rotate},
                                                 {ActionId::ToolScale, ToolKind::Scale}};
 
-const std::pair<ActionId, NewObject> kAdd[] = {
-    {ActionId::AddPolygon, NewObject::Polygon},       {ActionId::AddBox, NewObject::Box},
-    {ActionId::AddSphere, NewObject::Sphere},         {ActionId::AddCylinder, NewObject::Cylinder},
-    {ActionId::AddCone, NewObject::Cone},             {ActionId::AddDisc, NewObject::Disc},
-    {ActionId::AddPointLight, NewObject::PointLight}, {ActionId::AddSpotLight, NewObject::SpotLight},
-    {ActionId::AddSun, NewObject::Sun},               {ActionId::AddAreaLight, NewObject::AreaLight}};
+const std::pair<ActionId, NewObject> kAdd[] = {{ActionId::AddPolygon, NewObject::Polygon},
+                                               {ActionId::AddBox, NewObject::Box},
+                                               {ActionId::AddSphere, NewObject::Sphere},
+                                               {ActionId::AddCylinder, NewObject::Cylinder},
+                                               {ActionId::AddCone, NewObject::Cone},
+                                               {ActionId::AddDisc, NewObject::Disc},
+                                               {ActionId::AddPointLight, NewObject::PointLight},
+                                               {ActionId::AddSpotLight, NewObject::SpotLight},
+                                               {ActionId::AddSun, NewObject::Sun},
+                                               {ActionId::AddAreaLight, NewObject::AreaLight}};
 
 } // namespace
 
@@ -67,8 +71,8 @@ MainWindow::MainWindow(const QString& recovery_directory, QWidget* parent) : QMa
     setObjectName(QStringLiteral("main_window"));
     setAcceptDrops(true);
     setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks);
-    recovery_ = std::make_unique<Recovery>(
-        document_, recovery_directory.isEmpty() ? Recovery::default_directory() : recovery_directory);
+    recovery_ = std::make_unique<Recovery>(document_, recovery_directory.isEmpty() ? Recovery::default_directory()
+                                                                                   : recovery_directory);
     engine_ = new EngineLink(document_, this);
     actions_ = new Actions(this);
     files_ = new FileController(document_, *engine_, *recovery_, this);
@@ -203,16 +207,32 @@ void MainWindow::make_menus() {
         return menu;
     };
     const ActionId gap = ActionId::Count;
-    fill(tr("&Edit"), {ActionId::Undo, ActionId::Redo, gap, ActionId::Duplicate, ActionId::Delete, ActionId::Rename,
-                       ActionId::Group, gap, ActionId::Hide, ActionId::ShowAll, gap, ActionId::SelectAll,
-                       ActionId::SelectNone, gap, ActionId::ToolSelect, ActionId::ToolMove, ActionId::ToolRotate,
-                       ActionId::ToolScale, gap, ActionId::Commands});
+    fill(tr("&Edit"), {ActionId::Undo,
+                       ActionId::Redo,
+                       gap,
+                       ActionId::Duplicate,
+                       ActionId::Delete,
+                       ActionId::Rename,
+                       ActionId::Group,
+                       gap,
+                       ActionId::Hide,
+                       ActionId::ShowAll,
+                       gap,
+                       ActionId::SelectAll,
+                       ActionId::SelectNone,
+                       gap,
+                       ActionId::ToolSelect,
+                       ActionId::ToolMove,
+                       ActionId::ToolRotate,
+                       ActionId::ToolScale,
+                       gap,
+                       ActionId::Commands});
     fill(tr("&Add"), {ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder, ActionId::AddCone,
                       ActionId::AddDisc, gap, ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight,
                       ActionId::AddSun, gap, ActionId::AddCamera});
-    auto* view = fill(tr("&View"), {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap,
-                                    ActionId::ExposureUp, ActionId::ExposureDown, ActionId::ExposureReset, gap,
-                                    ActionId::Wireframe, gap});
+    auto* view =
+        fill(tr("&View"), {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap, ActionId::ExposureUp,
+                           ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::Wireframe, gap});
     docks_menu_ = view->addMenu(tr("&Panels"));
     const QList<QDockWidget*> docks = findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly);
     for (QDockWidget* dock : docks) {
@@ -276,8 +296,8 @@ void MainWindow::make_status_bar() {
             dock->raise();
         }
     });
-    for (QWidget* widget : std::initializer_list<QWidget*>{busy_text_, busy_bar_, busy_cancel_, problems_badge_,
-                                                           new LightBadge(*engine_)}) {
+    for (QWidget* widget :
+         std::initializer_list<QWidget*>{busy_text_, busy_bar_, busy_cancel_, problems_badge_, new LightBadge(*engine_)}) {
         statusBar()->addPermanentWidget(widget);
     }
     for (QWidget* widget : std::initializer_list<QWidget*>{busy_text_, busy_bar_, busy_cancel_}) {
