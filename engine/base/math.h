@@ -1,6 +1,7 @@
 // The one door to GLM: the rest of the program includes this header and never <glm/...> itself.
 #pragma once
 
+#include <glm/common.hpp>
 #include <glm/ext/matrix_double4x4.hpp>
 #include <glm/ext/matrix_float3x3.hpp>
 #include <glm/ext/matrix_float4x4.hpp>

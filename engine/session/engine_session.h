@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/scene/scene_edit.h"
+#include "engine/solver/gi_engine.h"
 #include "engine/solver/solution.h"
 
 #include <functional>
@@ -30,6 +31,12 @@ public:
     /// `wake` is called from the engine thread whenever status() or latest() has news; it must not block. The UI posts
     /// itself one queued event from it.
     explicit EngineSession(std::function<void()> wake);
+    /// What GiEngine::solve does, in the form in which another solver (a test's) can stand in for it. Called on the engine
+    /// thread; may throw, which counts as a failure.
+    using SolveFunction = std::function<Result<std::shared_ptr<const Solution>>(
+        const Scene&, const SolveOptions&, const RunContext&,
+        const std::function<void(std::shared_ptr<const Solution>)>& on_snapshot)>;
+    EngineSession(std::function<void()> wake, SolveFunction solve);
     ~EngineSession();
     EngineSession(const EngineSession&) = delete;
     EngineSession& operator=(const EngineSession&) = delete;

@@ -1,0 +1,160 @@
+// atrium-cli render: a still through one of the scene's cameras.
+#include "app/cli_commands.h"
+#include "app/cli_solving.h"
+#include "engine/view/still.h"
+#include "engine/view/tone.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+#include <optional>
+
+namespace atrium::cli {
+
+namespace {
+
+struct Arguments {
+    std::string file;
+    std::string out;
+    std::string camera;
+    std::string size = "1280x720";
+    std::optional<double> exposure;
+    std::string layers;
+    SolveArguments solve;
+};
+
+Result<StillOptions> parse_size(const std::string& text) {
+    StillOptions options;
+    const char* end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, options.width);
+    if (width.ec == std::errc() && width.ptr != end && (*width.ptr == 'x' || *width.ptr == 'X')) {
+        const auto height = std::from_chars(width.ptr + 1, end, options.height);
+        if (height.ec == std::errc() && height.ptr == end && options.width >= 1 && options.height >= 1 &&
+            options.width <= 16384 && options.height <= 16384) {
+            return options;
+        }
+    }
+    return fail("", "--size", fmt::format("'{}' is not a size", text), "Write it as 1280x720, each side from 1 to 16384.");
+}
+
+/// Which light the picture shows. Direct light is part of the diffuse layer and there is no caustic layer in this version.
+struct LayerChoice {
+    bool diffuse = true;
+    bool specular = true;
+};
+
+Result<LayerChoice> parse_layers(const std::string& text) {
+    if (text.empty()) {
+        return LayerChoice{};
+    }
+    bool direct = false;
+    LayerChoice choice{false, false};
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string name = text.substr(begin, end - begin);
+        if (name == "diffuse") {
+            choice.diffuse = true;
+        } else if (name == "specular") {
+            choice.specular = true;
+        } else if (name == "direct") {
+            direct = true;
+        } else if (name == "caustic") {
+            complain("note: --layers: there is no caustic layer in this version; 'caustic' adds nothing");
+        } else {
+            return fail("", "--layers", fmt::format("'{}' is not a layer", name),
+                        "The layers are direct, diffuse, caustic and specular, separated by commas.");
+        }
+        begin = end + 1;
+    }
+    if (direct && !choice.diffuse) {
+        return fail("", "--layers", "direct light is part of the diffuse layer in this version", "Ask for diffuse as well.");
+    }
+    if (!choice.diffuse && !choice.specular) {
+        return fail("", "--layers", "none of these layers exists in this version", "Ask for diffuse, specular or both.");
+    }
+    return choice;
+}
+
+Picture draw(const Solved& solved, const ViewCamera& camera, StillOptions options, const LayerChoice& layers,
+             const RunContext& context) {
+    const int depth = options.max_specular_depth;
+    options.max_specular_depth = layers.specular ? depth : 0;
+    Picture picture = render_still(solved.scene, *solved.solution, camera, options, context);
+    if (!layers.diffuse && !context.should_stop()) { // what mirrors and glass show: all light less what is seen directly
+        options.max_specular_depth = 0;
+        const Picture seen = render_still(solved.scene, *solved.solution, camera, options, context);
+        for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+            picture.pixels[i] = glm::max(picture.pixels[i] - seen.pixels[i], Rgb(0.0F));
+        }
+    }
+    return picture;
+}
+
+int run(const Arguments& a) {
+    const std::string extension = extension_of(a.out);
+    if (extension != ".exr" && extension != ".png") {
+        return refuse({a.out, "", "cannot be written in this format", "Use a name that ends in .exr or .png."});
+    }
+    const auto options = parse_size(a.size);
+    const auto layers = parse_layers(a.layers);
+    if (!options || !layers) {
+        return refuse(!options ? options.error() : layers.error());
+    }
+    if (auto fine = check_output(a.out); !fine) {
+        return refuse(fine.error());
+    }
+    auto solved = open_scene(a.file, a.solve);
+    if (!solved) {
+        return solved.error();
+    }
+    auto camera = find_camera(solved->scene, a.camera);
+    if (!camera) {
+        Error error = camera.error();
+        error.file = error.file.empty() ? a.file : error.file;
+        return refuse(error);
+    }
+    if (const int status = light_up(*solved, a.solve, false); status != kDone) {
+        return status;
+    }
+    // The time limit is the solve's: what it left is always drawn.
+    RunContext context;
+    context.stop = new_stop_flag();
+    context.on_progress = progress_reporter(a.solve.progress);
+    Picture picture = draw(*solved, *camera, *options, *layers, context);
+    finish_progress();
+    solved->stopped = solved->stopped || context.should_stop();
+    if (extension == ".png") {
+        const float ev = a.exposure ? float(*a.exposure) : camera->lens.exposure_ev;
+        const float scale = exposure_scale(solved->solution->mean_radiance, ev);
+        for (Rgb& pixel : picture.pixels) {
+            pixel = display_color(pixel, scale);
+        }
+    }
+    if (auto written = write_picture(a.out, picture); !written) {
+        return refuse(written.error());
+    }
+    return finish(*solved, a.solve);
+}
+
+} // namespace
+
+void add_render(CLI::App& app, int& status) {
+    auto a = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("render", "A still through one of the scene's cameras");
+    command->add_option("FILE", a->file, "Scene: .gltf, .glb or .atrium")->required();
+    command->add_option("-o,--output", a->out, "Image: .exr in linear cd/m2, or .png tone mapped as in the viewport")
+        ->required();
+    command->add_option("--camera", a->camera, "Name or index of a camera (default: the first, else one inside the room)");
+    command->add_option("--size", a->size, "Pixels, as 1280x720");
+    command->add_option("--exposure", a->exposure, "Stops above automatic exposure, .png only (default: the camera's own)")
+        ->check(CLI::Range(-30.0, 30.0));
+    command->add_option("--layers", a->layers, "Of direct,diffuse,caustic,specular (default: all there are)");
+    add_solve_options(*command, a->solve);
+    command->callback([a, &status] { status = run(*a); });
+}
+
+} // namespace atrium::cli

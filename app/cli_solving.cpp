@@ -1,0 +1,151 @@
+#include "app/cli_solving.h"
+
+#include "app/cli_stats.h"
+#include "engine/base/parallel.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <map>
+
+namespace atrium::cli {
+
+namespace {
+
+const std::map<std::string, SolverSettings::Quality> kQualities = {{"draft", SolverSettings::Quality::Draft},
+                                                                   {"normal", SolverSettings::Quality::Normal},
+                                                                   {"fine", SolverSettings::Quality::Fine}};
+
+SolveOptions options_for(const Scene& scene, const SolveArguments& arguments) {
+    SolveOptions options;
+    options.quality = arguments.quality ? kQualities.at(*arguments.quality) : scene.settings.quality;
+    options.seed = arguments.seed.value_or(scene.settings.seed);
+    options.target_error = arguments.error.value_or(0.0);
+    return options;
+}
+
+/// Whether the light stored in a project answers what the command line asks for.
+bool good_enough(const Solution& stored, const SolveArguments& arguments) {
+    if (!stored.final) {
+        return false;
+    }
+    const auto known = kQualities.find(stored.statistics.quality);
+    if (arguments.quality && (known == kQualities.end() || kQualities.at(*arguments.quality) > known->second)) {
+        return false;
+    }
+    if (arguments.seed && *arguments.seed != stored.statistics.seed) {
+        return false;
+    }
+    return !arguments.error || stored.statistics.error_estimate <= *arguments.error;
+}
+
+} // namespace
+
+void add_solve_options(CLI::App& command, SolveArguments& a) {
+    const std::string group = "Solve options";
+    command.add_option("--quality", a.quality, "How fine: draft, normal or fine (default: as the project says)")
+        ->check(CLI::IsMember({"draft", "normal", "fine"}))
+        ->group(group);
+    command.add_option("--error", a.error, "Relative error of irradiance to aim for, as 0.02")
+        ->check(CLI::Range(1e-6, 1.0))
+        ->group(group);
+    command.add_option("--time", a.time, "Stop after this many seconds with what there is (exit status 2)")
+        ->check(CLI::Range(1e-3, 1e7))
+        ->group(group);
+    command.add_option("--threads", a.threads, "Number of worker threads, 0 = one per core")
+        ->check(CLI::Range(0U, 1024U))
+        ->group(group);
+    command.add_option("--seed", a.seed, "Seed of the random numbers")->group(group);
+    command.add_option("--mode", a.mode, "default, or paper: the algorithms of 2001 (not in this version)")
+        ->check(CLI::IsMember({"default", "paper"}))
+        ->group(group);
+    command.add_option("--stats", a.stats, "Write statistics as JSON to this file, - for standard output")->group(group);
+    command.add_flag("--progress", a.progress, "Report progress on standard error")->group(group);
+}
+
+tl::expected<Solved, int> open_scene(const std::string& file, const SolveArguments& arguments) {
+    if (arguments.mode == "paper") {
+        return tl::unexpected(refuse({"", "--mode paper", "the algorithms of 2001 are not in this version",
+                                      "Leave --mode out to solve with the default ones."}));
+    }
+    if (auto fine = check_output(arguments.stats); !fine) {
+        return tl::unexpected(refuse(fine.error()));
+    }
+    if (arguments.threads) {
+        set_thread_limit(*arguments.threads);
+    }
+    Solved solved;
+    solved.file = file;
+    const double before = seconds_since_start();
+    auto loaded = load(file);
+    if (!loaded) {
+        return tl::unexpected(refuse(loaded.error()));
+    }
+    solved.scene = std::move(loaded->scene);
+    solved.load_seconds = seconds_since_start() - before;
+    if (!loaded->solution.empty()) {
+        auto stored = decode_solution(loaded->solution, solved.scene);
+        if (!stored) {
+            complain(fmt::format("warning: {}: the stored light cannot be used and is solved again: {}", file,
+                                 stored.error().message()));
+        } else if (good_enough(**stored, arguments)) {
+            solved.solution = *stored;
+            solved.from_file = true;
+            solved.load_seconds = seconds_since_start() - before;
+        }
+    }
+    return solved;
+}
+
+int light_up(Solved& solved, const SolveArguments& arguments, bool need_engine, const SnapshotWatcher& watcher) {
+    if (solved.from_file && !need_engine) {
+        return kDone;
+    }
+    RunContext context;
+    context.stop = new_stop_flag();
+    context.on_progress = progress_reporter(arguments.progress);
+    if (arguments.time) {
+        context.deadline = program_start() + std::chrono::duration_cast<RunContext::Clock::duration>(
+                                                 std::chrono::duration<double>(*arguments.time));
+    }
+    std::function<void(std::shared_ptr<const Solution>)> on_snapshot;
+    if (watcher) {
+        on_snapshot = [&watcher](const std::shared_ptr<const Solution>& s) { watcher(s, seconds_since_start()); };
+    }
+    auto result = solved.engine.solve(solved.scene, options_for(solved.scene, arguments), context, on_snapshot);
+    finish_progress();
+    if (!result) {
+        Error error = result.error();
+        if (error.file.empty()) {
+            error.file = solved.file;
+        }
+        if (!context.should_stop()) {
+            return refuse(error);
+        }
+        complain(error.message());
+        solved.stopped = true;
+        const int status = finish(solved, arguments);
+        return status == kDone ? kStopped : status;
+    }
+    solved.solution = *result;
+    solved.from_file = false;
+    solved.stopped = !solved.solution->final;
+    if (solved.stopped) {
+        complain(fmt::format("{}: stopped {}; the light is that of the last complete picture", solved.file,
+                             interrupted() ? "by a signal" : "at the time limit"));
+    }
+    return kDone;
+}
+
+int finish(const Solved& solved, const SolveArguments& arguments) {
+    if (!arguments.stats.empty()) {
+        if (auto written = write_text(arguments.stats, statistics_json(solved)); !written) {
+            return refuse(written.error());
+        }
+    }
+    return solved.stopped ? kStopped : kDone;
+}
+
+} // namespace atrium::cli

@@ -1,0 +1,130 @@
+#include "app/cli_stats.h"
+
+#include "engine/base/parallel.h"
+#include "engine/geometry/tessellate.h"
+
+#include <nlohmann/json.hpp>
+
+#include <map>
+
+namespace atrium::cli {
+
+using Json = nlohmann::ordered_json;
+
+SceneFacts count(const Scene& scene) {
+    SceneFacts facts;
+    std::map<ShapeId, std::size_t> triangles;
+    for (const NodeId id : scene.in_tree_order()) {
+        const Node& node = *scene.nodes.find(id);
+        ++facts.nodes;
+        facts.lights += scene.lights.contains(node.light) ? 1U : 0U;
+        facts.cameras += scene.cameras.contains(node.camera) ? 1U : 0U;
+        const Shape* shape = scene.shapes.find(node.shape);
+        if (shape == nullptr) {
+            continue;
+        }
+        const std::size_t parts = part_count(*shape);
+        facts.primitives += parts;
+        auto known = triangles.find(node.shape);
+        if (known == triangles.end()) {
+            known = triangles.emplace(node.shape, tessellate(shape->geometry)->indices.size() / 3).first;
+        }
+        facts.triangles += known->second;
+        for (std::size_t part = 0; part < parts; ++part) {
+            const Material* material = scene.material_of(node, part);
+            facts.emitters += material != nullptr && material->emits() ? 1U : 0U;
+        }
+    }
+    facts.materials = scene.materials.size();
+    facts.textures = scene.textures.size();
+    return facts;
+}
+
+Json scene_json(const std::string& file, const Scene& scene) {
+    const SceneFacts facts = count(scene);
+    return {{"file", file},
+            {"nodes", facts.nodes},
+            {"primitives", facts.primitives},
+            {"triangles", facts.triangles},
+            {"materials", facts.materials},
+            {"lights", facts.lights},
+            {"emitters", facts.emitters},
+            {"cameras", facts.cameras},
+            {"textures", facts.textures}};
+}
+
+Json features_json(const std::vector<Feature>& features) {
+    Json out = Json::object();
+    for (const Feature& feature : features) {
+        out[feature.name] = {{"used", feature.used}, {"why", feature.why}};
+    }
+    return out;
+}
+
+Json problems_json(const std::vector<Problem>& problems) {
+    Json out = Json::array();
+    for (const Problem& p : problems) {
+        out.push_back({{"severity", severity_name(p.severity)}, {"where", p.where}, {"what", p.what}, {"hint", p.hint}});
+    }
+    return out;
+}
+
+std::string statistics_json(const Solved& solved) {
+    Statistics s;
+    if (solved.solution) {
+        s = solved.solution->statistics;
+    }
+    if (s.features.empty()) {
+        s.features = scene_features(solved.scene);
+    }
+    // Light that came with the project cost this run nothing but reading it.
+    const bool solved_here = solved.solution && !solved.from_file;
+    Json phases = Json::array();
+    if (solved_here) {
+        for (const Statistics::Phase& phase : s.phases) {
+            phases.push_back({{"name", phase.name}, {"seconds", phase.seconds}, {"share", phase.share}});
+        }
+    }
+    Json out;
+    out["version"] = ATRIUM_VERSION;
+    out["scene"] = scene_json(solved.file, solved.scene);
+    out["threads"] = solved_here ? s.threads : thread_limit();
+    out["seed"] = s.seed;
+    out["mode"] = s.mode;
+    out["quality"] = s.quality;
+    out["features"] = features_json(s.features);
+    out["time"] = {{"load", solved.load_seconds},
+                   {"build", solved_here ? s.time.build : 0.0},
+                   {"solve", solved_here ? s.time.solve : 0.0},
+                   {"first_picture", solved_here ? s.time.first_picture : 0.0},
+                   {"total", seconds_since_start()}};
+    out["phases"] = phases;
+    out["iterations"] = s.iterations;
+    out["converged"] = s.converged;
+    out["residual"] = s.residual;
+    out["error_estimate"] = s.error_estimate;
+    out["elements"] = s.elements;
+    out["clusters"] = s.clusters;
+    out["links"] = s.links;
+    out["rays"] = s.rays;
+    out["particles_emitted"] = s.particles_emitted;
+    out["particles_stored"] = s.particles_stored;
+    out["caustic_textures"] = Json::array();
+    out["memory"] = {{"elements", s.memory.elements},
+                     {"links", s.memory.links},
+                     {"particles", s.memory.particles},
+                     {"octree", s.memory.octree},
+                     {"caustic_textures", s.memory.caustic_textures},
+                     {"layers", s.memory.layers},
+                     {"ray_scene", s.memory.ray_scene},
+                     {"peak_rss", peak_resident_bytes()}};
+    out["energy"] = {{"emitted", s.energy.emitted},
+                     {"absorbed", s.energy.absorbed},
+                     {"escaped", s.energy.escaped},
+                     {"defect", s.energy.defect}};
+    out["stopped"] = solved.stopped;
+    out["solution_reused"] = solved.from_file;
+    return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace atrium::cli

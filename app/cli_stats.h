@@ -1,0 +1,33 @@
+// Statistics and scene facts as JSON with the names of CONTRACTS.
+#pragma once
+
+#include "app/cli_solving.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstddef>
+#include <string>
+
+namespace atrium::cli {
+
+/// What is in a scene, counted.
+struct SceneFacts {
+    std::size_t nodes = 0;
+    std::size_t primitives = 0; ///< parts of shapes, counted once for every node that shows them
+    std::size_t triangles = 0;  ///< drawn, instances counted each time
+    std::size_t materials = 0;
+    std::size_t lights = 0; ///< point, spot and directional lights; emitting surfaces are counted apart
+    std::size_t emitters = 0;
+    std::size_t cameras = 0;
+    std::size_t textures = 0;
+};
+SceneFacts count(const Scene& scene);
+
+nlohmann::ordered_json scene_json(const std::string& file, const Scene& scene);
+nlohmann::ordered_json features_json(const std::vector<Feature>& features);
+nlohmann::ordered_json problems_json(const std::vector<Problem>& problems);
+
+/// The whole object of `--stats`, indented, with a final newline.
+std::string statistics_json(const Solved& solved);
+
+} // namespace atrium::cli

@@ -1,0 +1,337 @@
+#include "engine/session/engine_session.h"
+
+#include "engine/session/edit_mailbox.h"
+#include "engine/session/quality_scheduler.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <thread>
+#include <utility>
+
+namespace atrium {
+namespace {
+
+using Clock = RunContext::Clock;
+
+// Progress may be reported far more often than anybody can look at it.
+constexpr std::chrono::milliseconds kWakeInterval{33};
+
+double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
+
+/// Time left at the pace so far; negative while there is too little to go by.
+double estimate_remaining(double elapsed, double fraction) {
+    return fraction < 0.02 || elapsed < 0.1 ? -1.0 : elapsed * (1.0 - fraction) / fraction;
+}
+
+} // namespace
+
+struct EngineSession::Impl {
+    using Picture = std::shared_ptr<const Solution>;
+
+    Impl(std::function<void()> wake_function, SolveFunction solve_function)
+        : wake(std::move(wake_function)), solve(std::move(solve_function)), thread([this] { run(); }) {}
+    ~Impl() {
+        {
+            const std::lock_guard lock(mutex);
+            quit = true;
+            running_stop.request_stop();
+        }
+        changed.notify_all();
+        thread.join();
+    }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+
+    struct Load {
+        Scene scene;
+        std::uint64_t revision = 0;
+    };
+    struct Ended {
+        QualityScheduler::Outcome outcome = QualityScheduler::Outcome::Failed;
+        Picture picture; ///< may be null
+        std::string message;
+    };
+
+    // ---- engine thread ----
+
+    void run() {
+        std::unique_lock lock(mutex);
+        for (;;) {
+            changed.wait(lock, [&] { return quit || pending_load || !mailbox.empty() || scheduler.should_start(); });
+            if (quit) {
+                return;
+            }
+            std::optional<Load> loaded = std::exchange(pending_load, std::nullopt);
+            const EditMailbox::Batch batch = mailbox.take();
+            lock.unlock();
+            const std::string refusal = bring_up_to_date(std::move(loaded), batch);
+            lock.lock();
+            if (!refusal.empty() && !pending_load) {
+                scheduler.on_failure();
+                message = refusal;
+            }
+            if (scheduler.should_start() && !pending_load && mailbox.empty()) {
+                solve_once(lock);
+            }
+            lock.unlock();
+            tell();
+            lock.lock();
+        }
+    }
+
+    /// Applies what came in to the engine's own scene; returns why an edit was refused, or nothing.
+    std::string bring_up_to_date(std::optional<Load> loaded, const EditMailbox::Batch& batch) {
+        if (loaded) {
+            scene = std::move(loaded->scene);
+            revision = loaded->revision;
+        }
+        std::string refusal;
+        for (const SceneEdit& edit : batch.edits) {
+            if (const auto done = apply(scene, edit); !done && refusal.empty()) {
+                refusal = "An edit could not be carried over to the light simulation: " + done.error().message();
+            }
+        }
+        if (!batch.edits.empty()) {
+            revision = batch.revision;
+        }
+        return refusal;
+    }
+
+    /// Called and left with the lock held; the solve itself runs without.
+    void solve_once(std::unique_lock<std::mutex>& lock) {
+        scheduler.on_started();
+        running_stop = StopFlag();
+        started = Clock::now();
+        phase.clear();
+        fraction = 0.0;
+        message.clear();
+        const StopFlag stop = running_stop;
+        lock.unlock();
+        tell();
+        Ended ended = solve_guarded(stop);
+        lock.lock();
+        if (ended.picture && !scheduler.abandoned() && ended.picture != latest) {
+            publish(std::move(ended.picture));
+        }
+        if (ended.outcome == QualityScheduler::Outcome::Failed && !scheduler.abandoned()) {
+            message = std::move(ended.message);
+        }
+        scheduler.on_finished(ended.outcome);
+        phase.clear();
+        last_duration = Clock::now() - started;
+    }
+
+    Ended solve_guarded(const StopFlag& stop) {
+        using Outcome = QualityScheduler::Outcome;
+        RunContext context;
+        context.stop = stop;
+        context.on_progress = [&](const Progress& p) { on_progress(p, stop); };
+        const SolveOptions options{scene.settings.quality, scene.settings.seed, 0.0, revision};
+        try {
+            auto result = solve(scene, options, context, [&](const Picture& picture) { on_snapshot(picture, stop); });
+            if (!result) {
+                const bool asked = stop.stop_requested();
+                return {asked ? Outcome::Stopped : Outcome::Failed, nullptr, result.error().message()};
+            }
+            if (*result == nullptr) {
+                return {Outcome::Failed, nullptr, "The light simulation returned no picture."};
+            }
+            return {(*result)->final ? Outcome::Final : Outcome::Stopped, *result, {}};
+        } catch (const std::bad_alloc&) {
+            return {Outcome::Failed, nullptr, "There is not enough memory for the light of this scene."};
+        } catch (const std::exception& e) {
+            return {Outcome::Failed, nullptr, std::string("The light simulation failed: ") + e.what()};
+        } catch (...) {
+            return {Outcome::Failed, nullptr, "The light simulation failed for an unknown reason."};
+        }
+    }
+
+    void on_progress(const Progress& progress, const StopFlag& stop) {
+        const auto now = Clock::now();
+        bool news = false;
+        {
+            const std::lock_guard lock(mutex);
+            news = phase != progress.phase || now - last_wake >= kWakeInterval;
+            phase = progress.phase;
+            fraction = std::clamp(progress.fraction, fraction, 1.0);
+            stop_if_stale(now, stop);
+        }
+        if (news) {
+            last_wake = now;
+            tell();
+        }
+    }
+
+    void on_snapshot(const Picture& picture, const StopFlag& stop) {
+        {
+            const std::lock_guard lock(mutex);
+            stop_if_stale(Clock::now(), stop);
+            if (picture == nullptr || scheduler.abandoned()) {
+                return;
+            }
+            publish(picture);
+        }
+        tell();
+    }
+
+    void tell() const {
+        if (wake) {
+            wake();
+        }
+    }
+
+    // ---- with the lock held ----
+
+    void publish(Picture picture) {
+        latest_revision = revision; // of the scene being solved; publish() is called during a solve only
+        latest = std::move(picture);
+    }
+    void stop_if_stale(Clock::time_point now, const StopFlag& stop) const {
+        if (scheduler.should_stop(now)) {
+            stop.request_stop();
+        }
+    }
+
+    // ---- any thread ----
+
+    void load(Scene document, std::uint64_t document_revision, Picture stored) {
+        Load next{document, document_revision};
+        const std::lock_guard posting_lock(posting);
+        posted = std::move(document);
+        {
+            const std::lock_guard lock(mutex);
+            mailbox.clear();
+            pending_load = std::move(next);
+            scheduler.on_load(stored != nullptr, stored != nullptr && stored->final);
+            latest = std::move(stored);
+            latest_revision = document_revision; // a stored solution is of the scene it was stored with
+            posted_revision = document_revision;
+            light_revision = document_revision;
+            phase.clear();
+            fraction = 0.0;
+            message.clear();
+            last_duration = {};
+            stop_if_stale(Clock::now(), running_stop);
+        }
+        changed.notify_all();
+    }
+
+    void post(const SceneEdit& edit, std::uint64_t edit_revision, bool in_gesture) {
+        const std::lock_guard posting_lock(posting);
+        const bool neutral = leaves_light_unchanged(posted, edit);
+        (void)apply(posted, edit); // a refusal is found again, and reported, on the engine thread
+        const auto now = Clock::now();
+        {
+            const std::lock_guard lock(mutex);
+            mailbox.post(edit, edit_revision);
+            posted_revision = edit_revision;
+            if (!neutral) {
+                light_revision = edit_revision;
+            }
+            scheduler.on_edit(now, !neutral, in_gesture);
+            stop_if_stale(now, running_stop);
+        }
+        changed.notify_all();
+    }
+
+    template <class F> void steer(F&& event) {
+        {
+            const std::lock_guard lock(mutex);
+            event();
+            stop_if_stale(Clock::now(), running_stop);
+        }
+        changed.notify_all();
+    }
+
+    [[nodiscard]] SessionStatus status() const {
+        const auto now = Clock::now();
+        const std::lock_guard lock(mutex);
+        SessionStatus out;
+        switch (scheduler.state()) {
+        case QualityScheduler::State::Idle: out.state = SessionStatus::State::Idle; break;
+        case QualityScheduler::State::Solving: out.state = SessionStatus::State::Solving; break;
+        case QualityScheduler::State::Stopped: out.state = SessionStatus::State::Stopped; break;
+        case QualityScheduler::State::Failed: out.state = SessionStatus::State::Failed; break;
+        }
+        const bool solving = out.state == SessionStatus::State::Solving;
+        out.posted_revision = posted_revision;
+        if (latest != nullptr) {
+            // Edits since then that leave light alone leave the picture true.
+            out.shown_revision = latest_revision >= light_revision ? posted_revision : latest_revision;
+        }
+        out.phase = solving ? phase : std::string();
+        out.fraction = solving ? fraction : 0.0;
+        if (solving && scheduler.running()) {
+            out.elapsed_seconds = seconds(now - started);
+            out.remaining_seconds = estimate_remaining(out.elapsed_seconds, fraction);
+        } else if (!solving) {
+            out.elapsed_seconds = seconds(last_duration);
+        }
+        out.message = out.state == SessionStatus::State::Failed ? message : std::string();
+        return out;
+    }
+
+    // Engine thread only.
+    Scene scene;
+    std::uint64_t revision = 0;
+    Clock::time_point last_wake{};
+    const std::function<void()> wake;
+    const SolveFunction solve;
+
+    // Guarded by `posting`, which the engine thread never takes: the document as posted, so that post() can tell whether an
+    // edit changes light, and a running solve need not be stopped for a new name.
+    std::mutex posting;
+    Scene posted;
+
+    // Guarded by `mutex`, which is held only to copy state in and out.
+    mutable std::mutex mutex;
+    std::condition_variable changed;
+    bool quit = false;
+    std::optional<Load> pending_load;
+    EditMailbox mailbox;
+    QualityScheduler scheduler;
+    StopFlag running_stop;
+    Picture latest;
+    std::uint64_t latest_revision = 0; ///< of the scene that `latest` shows
+    std::uint64_t posted_revision = 0;
+    std::uint64_t light_revision = 0; ///< newest edit that changed light
+    std::string phase;
+    double fraction = 0.0;
+    std::string message;
+    Clock::time_point started{};
+    Clock::duration last_duration{};
+
+    std::jthread thread; ///< last: starts when all of the above exists
+};
+
+EngineSession::EngineSession(std::function<void()> wake, SolveFunction solve)
+    : impl_(std::make_unique<Impl>(std::move(wake), std::move(solve))) {}
+EngineSession::~EngineSession() = default;
+
+void EngineSession::load(Scene scene, std::uint64_t revision, std::shared_ptr<const Solution> stored) {
+    impl_->load(std::move(scene), revision, std::move(stored));
+}
+void EngineSession::post(const SceneEdit& edit, std::uint64_t revision, bool in_gesture) {
+    impl_->post(edit, revision, in_gesture);
+}
+void EngineSession::end_gesture() {
+    impl_->steer([this] { impl_->scheduler.on_gesture_end(); });
+}
+void EngineSession::cancel() {
+    impl_->steer([this] { impl_->scheduler.on_cancel(); });
+}
+void EngineSession::resume() {
+    impl_->steer([this] { impl_->scheduler.on_resume(); });
+}
+
+std::shared_ptr<const Solution> EngineSession::latest() const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->latest;
+}
+SessionStatus EngineSession::status() const { return impl_->status(); }
+
+} // namespace atrium

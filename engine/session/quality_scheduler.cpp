@@ -1,0 +1,98 @@
+#include "engine/session/quality_scheduler.h"
+
+#include <utility>
+
+namespace atrium {
+
+void QualityScheduler::on_load(bool has_picture, bool complete) {
+    needed_ = !has_picture;
+    complete_ = complete;
+    cancelled_ = false;
+    failed_ = false;
+    in_gesture_ = false;
+    abandoned_ = running_;
+}
+
+void QualityScheduler::on_edit(Time now, bool changes_light, bool in_gesture) {
+    last_edit_ = now;
+    in_gesture_ = in_gesture;
+    if (changes_light) {
+        needed_ = true;
+        complete_ = false;
+        cancelled_ = false;
+        failed_ = false;
+    }
+}
+
+void QualityScheduler::on_gesture_end() { in_gesture_ = false; }
+
+void QualityScheduler::on_cancel() {
+    if (running_ || needed_) {
+        cancelled_ = true;
+        stopping_ = running_;
+    }
+}
+
+void QualityScheduler::on_resume() {
+    cancelled_ = false;
+    failed_ = false;
+    if (running_ ? stopping_ : !complete_) {
+        needed_ = true;
+    }
+}
+
+void QualityScheduler::on_started() {
+    running_ = true;
+    needed_ = false;
+}
+
+void QualityScheduler::on_finished(Outcome outcome) {
+    running_ = false;
+    stopping_ = false;
+    if (std::exchange(abandoned_, false)) {
+        return; // nothing that it says is about the present document
+    }
+    switch (outcome) {
+    case Outcome::Final:
+        if (!needed_) {
+            complete_ = true;
+            cancelled_ = false; // it was done before it heard
+        }
+        break;
+    case Outcome::Stopped:
+        if (cancelled_) {
+            needed_ = true; // still wanted, once it may go on
+        }
+        break;
+    case Outcome::Failed:
+        // An edit made meanwhile may well have cured it: then the next solve runs, else it would fail the same way.
+        failed_ = !needed_;
+        needed_ = true;
+        break;
+    }
+}
+
+void QualityScheduler::on_failure() {
+    failed_ = true;
+    needed_ = true;
+}
+
+bool QualityScheduler::should_stop(Time now) const {
+    if (!running_) {
+        return false;
+    }
+    const bool stale = needed_ && (!in_gesture_ || now - last_edit_ >= kRest);
+    return abandoned_ || cancelled_ || stale;
+}
+
+QualityScheduler::State QualityScheduler::state() const {
+    if (failed_) {
+        return State::Failed;
+    }
+    if (cancelled_) {
+        return State::Stopped;
+    }
+    return (running_ && !abandoned_) || needed_ ? State::Solving : State::Idle;
+}
+
+} // namespace atrium

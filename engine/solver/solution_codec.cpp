@@ -1,0 +1,260 @@
+// Layers and statistics as bytes for the project file: a fixed header, a JSON part, raw arrays; all zstd-compressed.
+#include "engine/solver/solution.h"
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+#include <unordered_map>
+#include <zstd.h>
+
+namespace atrium {
+namespace {
+
+constexpr char kMagic[8] = {'A', 'T', 'R', 'L', 'I', 'G', 'H', 'T'};
+constexpr std::uint32_t kVersion = 1;
+constexpr std::uint64_t kMaxBytes = std::uint64_t(4) << 30;
+
+struct Header {
+    char magic[8];
+    std::uint32_t version;
+    std::uint32_t reserved;
+    std::uint64_t raw_size;
+};
+
+class Writer {
+public:
+    template <class T> void value(const T& v) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        const auto* p = reinterpret_cast<const std::byte*>(&v);
+        bytes.insert(bytes.end(), p, p + sizeof(T));
+    }
+    template <class T> void array(const std::vector<T>& v) {
+        value(std::uint64_t(v.size()));
+        const auto* p = reinterpret_cast<const std::byte*>(v.data());
+        bytes.insert(bytes.end(), p, p + v.size() * sizeof(T));
+    }
+    std::vector<std::byte> bytes;
+};
+
+class Reader {
+public:
+    explicit Reader(std::span<const std::byte> b) : bytes_(b) {}
+    template <class T> bool value(T& v) {
+        if (bytes_.size() - at_ < sizeof(T)) {
+            return false;
+        }
+        std::memcpy(&v, bytes_.data() + at_, sizeof(T));
+        at_ += sizeof(T);
+        return true;
+    }
+    template <class T> bool array(std::vector<T>& v) {
+        std::uint64_t count = 0;
+        if (!value(count) || count > (bytes_.size() - at_) / sizeof(T)) {
+            return false;
+        }
+        v.resize(count);
+        if (count > 0) {
+            std::memcpy(static_cast<void*>(v.data()), bytes_.data() + at_, count * sizeof(T));
+        }
+        at_ += count * sizeof(T);
+        return true;
+    }
+    [[nodiscard]] bool at_end() const { return at_ == bytes_.size(); }
+
+private:
+    std::span<const std::byte> bytes_;
+    std::size_t at_ = 0;
+};
+
+nlohmann::json to_json(const Statistics& s) {
+    nlohmann::json phases = nlohmann::json::array();
+    for (const auto& p : s.phases) {
+        phases.push_back({p.name, p.seconds, p.share});
+    }
+    nlohmann::json features = nlohmann::json::array();
+    for (const auto& f : s.features) {
+        features.push_back({f.name, f.used, f.why});
+    }
+    return {{"phases", phases},
+            {"features", features},
+            {"time", {s.time.load, s.time.build, s.time.solve, s.time.first_picture, s.time.total}},
+            {"threads", s.threads},
+            {"seed", s.seed},
+            {"mode", s.mode},
+            {"quality", s.quality},
+            {"iterations", s.iterations},
+            {"converged", s.converged},
+            {"residual", s.residual},
+            {"error_estimate", s.error_estimate},
+            {"counts", {s.triangles, s.elements, s.clusters, s.links, s.rays}},
+            {"memory", {s.memory.elements, s.memory.links, s.memory.layers, s.memory.ray_scene, s.memory.peak_rss}},
+            {"energy", {s.energy.emitted, s.energy.absorbed, s.energy.escaped, s.energy.defect}}};
+}
+
+Statistics statistics_from(const nlohmann::json& j) {
+    Statistics s;
+    for (const auto& p : j.at("phases")) {
+        s.phases.push_back({p.at(0), p.at(1), p.at(2)});
+    }
+    for (const auto& f : j.at("features")) {
+        s.features.push_back({f.at(0), f.at(1), f.at(2)});
+    }
+    const auto& t = j.at("time");
+    s.time = {t.at(0), t.at(1), t.at(2), t.at(3), t.at(4)};
+    s.threads = j.at("threads");
+    s.seed = j.at("seed");
+    s.mode = j.at("mode");
+    s.quality = j.at("quality");
+    s.iterations = j.at("iterations");
+    s.converged = j.at("converged");
+    s.residual = j.at("residual");
+    s.error_estimate = j.at("error_estimate");
+    const auto& c = j.at("counts");
+    s.triangles = c.at(0);
+    s.elements = c.at(1);
+    s.clusters = c.at(2);
+    s.links = c.at(3);
+    s.rays = c.at(4);
+    const auto& m = j.at("memory");
+    s.memory.elements = m.at(0);
+    s.memory.links = m.at(1);
+    s.memory.layers = m.at(2);
+    s.memory.ray_scene = m.at(3);
+    s.memory.peak_rss = m.at(4);
+    const auto& e = j.at("energy");
+    s.energy = {e.at(0), e.at(1), e.at(2), e.at(3)};
+    return s;
+}
+
+// Light may be any finite number; geometry must be finite and indices in range, or the file is damaged.
+bool plausible(const SurfaceLayer& layer) {
+    const DisplayMesh& mesh = *layer.mesh;
+    const std::size_t n = mesh.positions.size();
+    const auto optional = [&](std::size_t size) { return size == 0 || size == n; };
+    if (mesh.normals.size() != n || layer.irradiance_front.size() != n || !optional(layer.irradiance_back.size()) ||
+        !optional(mesh.texcoords0.size()) || !optional(mesh.texcoords1.size()) || !optional(mesh.colors.size()) ||
+        mesh.indices.size() % 3 != 0) {
+        return false;
+    }
+    for (const std::uint32_t i : mesh.indices) {
+        if (i >= n) {
+            return false;
+        }
+    }
+    for (const auto* values : {&mesh.positions, &mesh.normals, &layer.irradiance_front, &layer.irradiance_back}) {
+        for (const vec3& v : *values) {
+            if (!is_finite(v)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+std::vector<std::byte> encode_solution(const Solution& solution, const Scene& scene) {
+    std::unordered_map<NodeId, std::uint32_t> order;
+    for (const NodeId id : scene.in_tree_order()) {
+        order.emplace(id, std::uint32_t(order.size()));
+    }
+    Writer out;
+    const std::string text = to_json(solution.statistics).dump();
+    out.array(std::vector<char>(text.begin(), text.end()));
+    out.value(std::uint8_t(solution.final));
+    out.value(solution.mean_radiance);
+    std::vector<const SurfaceLayer*> layers;
+    for (const auto& layer : solution.surfaces) {
+        if (order.contains(layer->node)) {
+            layers.push_back(layer.get());
+        }
+    }
+    out.value(std::uint64_t(layers.size()));
+    for (const SurfaceLayer* layer : layers) {
+        out.value(order.at(layer->node));
+        out.value(layer->part);
+        const DisplayMesh& mesh = *layer->mesh;
+        out.array(mesh.positions);
+        out.array(mesh.normals);
+        out.array(mesh.texcoords0);
+        out.array(mesh.texcoords1);
+        out.array(mesh.colors);
+        out.array(mesh.indices);
+        out.array(layer->irradiance_front);
+        out.array(layer->irradiance_back);
+    }
+    Header header{};
+    std::memcpy(header.magic, kMagic, sizeof kMagic);
+    header.version = kVersion;
+    header.raw_size = out.bytes.size();
+    std::vector<std::byte> packed(sizeof(Header) + ZSTD_compressBound(out.bytes.size()));
+    std::memcpy(packed.data(), &header, sizeof header);
+    const std::size_t size =
+        ZSTD_compress(packed.data() + sizeof header, packed.size() - sizeof header, out.bytes.data(), out.bytes.size(), 3);
+    packed.resize(ZSTD_isError(size) != 0U ? 0 : sizeof header + size);
+    return packed;
+}
+
+Result<std::shared_ptr<const Solution>> decode_solution(std::span<const std::byte> bytes, const Scene& scene) {
+    const auto damaged = [] { return fail("", "stored light", "it is damaged", "The light is computed again"); };
+    Header header{};
+    if (bytes.size() < sizeof header) {
+        return damaged();
+    }
+    std::memcpy(&header, bytes.data(), sizeof header);
+    if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) {
+        return damaged();
+    }
+    if (header.version != kVersion) {
+        return fail("", "stored light", "it was written by another version of the program", "The light is computed again");
+    }
+    const auto packed = bytes.subspan(sizeof header);
+    // The frame's own size is checked before anything of the claimed size is allocated.
+    if (header.raw_size > kMaxBytes || ZSTD_getFrameContentSize(packed.data(), packed.size()) != header.raw_size) {
+        return damaged();
+    }
+    std::vector<std::byte> raw(header.raw_size);
+    const std::size_t size = ZSTD_decompress(raw.data(), raw.size(), packed.data(), packed.size());
+    if (ZSTD_isError(size) != 0U || size != raw.size()) {
+        return damaged();
+    }
+    Reader in(raw);
+    auto solution = std::make_shared<Solution>();
+    std::vector<char> text;
+    std::uint8_t final = 0;
+    std::uint64_t count = 0;
+    if (!in.array(text) || !in.value(final) || !in.value(solution->mean_radiance) || !in.value(count) ||
+        count > raw.size()) {
+        return damaged();
+    }
+    try {
+        solution->statistics = statistics_from(nlohmann::json::parse(text));
+    } catch (const nlohmann::json::exception&) {
+        return damaged();
+    }
+    solution->final = final != 0;
+    const std::vector<NodeId> nodes = scene.in_tree_order();
+    for (std::uint64_t i = 0; i < count; ++i) {
+        auto layer = std::make_shared<SurfaceLayer>();
+        auto mesh = std::make_shared<DisplayMesh>();
+        std::uint32_t node = 0;
+        if (!in.value(node) || node >= nodes.size() || !in.value(layer->part) || !in.array(mesh->positions) ||
+            !in.array(mesh->normals) || !in.array(mesh->texcoords0) || !in.array(mesh->texcoords1) ||
+            !in.array(mesh->colors) || !in.array(mesh->indices) || !in.array(layer->irradiance_front) ||
+            !in.array(layer->irradiance_back)) {
+            return damaged();
+        }
+        layer->node = nodes[node];
+        layer->mesh = std::move(mesh);
+        if (!plausible(*layer)) {
+            return damaged();
+        }
+        solution->surfaces.push_back(std::move(layer));
+    }
+    if (!in.at_end()) {
+        return damaged();
+    }
+    return solution;
+}
+
+} // namespace atrium

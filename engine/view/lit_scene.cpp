@@ -1,0 +1,73 @@
+#include "engine/view/lit_scene.h"
+
+namespace atrium {
+namespace {
+
+// Appends a layer's mesh as one more part; returns its first vertex.
+std::uint32_t append(MeshData& mesh, const DisplayMesh& part) {
+    const auto base = std::uint32_t(mesh.positions.size());
+    // Attributes must cover all parts or none: a part without one gets neutral values.
+    const auto extend = [&](auto& all, const auto& own, auto neutral) {
+        if (own.empty() && all.empty()) {
+            return;
+        }
+        all.resize(base, neutral);
+        all.insert(all.end(), own.begin(), own.end());
+        all.resize(base + part.positions.size(), neutral);
+    };
+    extend(mesh.texcoords0, part.texcoords0, vec2(0.0F));
+    extend(mesh.texcoords1, part.texcoords1, vec2(0.0F));
+    extend(mesh.colors, part.colors, vec3(1.0F));
+    mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
+    mesh.normals.insert(mesh.normals.end(), part.normals.begin(), part.normals.end());
+    mesh.parts.push_back({std::uint32_t(mesh.indices.size()), std::uint32_t(part.indices.size())});
+    for (const std::uint32_t i : part.indices) {
+        mesh.indices.push_back(base + i);
+    }
+    return base;
+}
+
+} // namespace
+
+LitScene::LitScene(const Scene& scene, const Solution& solution) {
+    Scene lit = scene;
+    for (const auto& layer : solution.surfaces) {
+        if (scene.nodes.contains(layer->node)) {
+            parts_[layer->node].push_back({layer, 0});
+        }
+    }
+    for (auto& [id, parts] : parts_) {
+        Node& node = *lit.nodes.find(id);
+        auto mesh = std::make_shared<MeshData>();
+        std::vector<MaterialId> materials;
+        for (Part& part : parts) {
+            part.first_vertex = append(*mesh, *part.layer->mesh);
+            materials.push_back(part.layer->part < node.materials.size() ? node.materials[part.layer->part] : MaterialId{});
+        }
+        Shape shape;
+        shape.geometry = Mesh{mesh};
+        node.shape = lit.shapes.insert(std::move(shape));
+        node.materials = std::move(materials);
+    }
+    rays_ = std::make_unique<RayScene>(lit);
+}
+
+Rgb LitScene::irradiance(const Hit& hit) const {
+    const RaySurface& surface = rays_->surfaces()[hit.surface];
+    const auto it = parts_.find(surface.node);
+    if (it == parts_.end() || surface.part >= it->second.size()) {
+        return Rgb(0.0F);
+    }
+    const Part& part = it->second[surface.part];
+    // Single-sided back sides and solids' insides have no light of their own; what has two sides shows the one met.
+    const bool use_back = !hit.front && !part.layer->irradiance_back.empty();
+    if (!hit.front && !use_back) {
+        return Rgb(0.0F);
+    }
+    const auto& light = use_back ? part.layer->irradiance_back : part.layer->irradiance_front;
+    const uvec3 t = surface.triangles[hit.triangle] - uvec3(part.first_vertex);
+    const vec2& b = hit.barycentric;
+    return light[t.x] * (1.0F - b.x - b.y) + light[t.y] * b.x + light[t.z] * b.y;
+}
+
+} // namespace atrium

@@ -1,0 +1,224 @@
+// Event traces on a made-up clock: each event is followed by what the scheduler then wants.
+#include "engine/session/quality_scheduler.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace atrium {
+namespace {
+
+using Outcome = QualityScheduler::Outcome;
+using State = QualityScheduler::State;
+
+struct Scheduler : testing::Test {
+    QualityScheduler s;
+    int now_ms = 0;
+
+    [[nodiscard]] QualityScheduler::Time now() const { return QualityScheduler::Time(std::chrono::milliseconds(now_ms)); }
+    /// "start", "stop" or "-": what is to be done at this moment.
+    [[nodiscard]] std::string wants() const { return s.should_start() ? "start" : s.should_stop(now()) ? "stop" : "-"; }
+    std::string edit(bool in_gesture = false) {
+        s.on_edit(now(), true, in_gesture);
+        return wants();
+    }
+    std::string started() {
+        s.on_started();
+        return wants();
+    }
+    std::string finished(Outcome outcome) {
+        s.on_finished(outcome);
+        return wants();
+    }
+    std::string wait(int ms) {
+        now_ms += ms;
+        return wants();
+    }
+    void SetUp() override {
+        EXPECT_EQ(wants(), "-");
+        s.on_load(false, false);
+    }
+};
+
+TEST_F(Scheduler, ADocumentIsSolvedOnce) {
+    EXPECT_EQ(wants(), "start");
+    EXPECT_EQ(s.state(), State::Solving);
+    EXPECT_EQ(started(), "-");
+    EXPECT_EQ(wait(100000), "-");
+    EXPECT_EQ(finished(Outcome::Final), "-");
+    EXPECT_EQ(s.state(), State::Idle);
+}
+
+TEST_F(Scheduler, AStoredSolutionIsEnoughUntilAnEdit) {
+    s.on_load(true, true);
+    EXPECT_EQ(wants(), "-");
+    EXPECT_EQ(s.state(), State::Idle);
+    s.on_resume();
+    EXPECT_EQ(wants(), "-") << "it is final";
+    EXPECT_EQ(edit(), "start");
+}
+
+TEST_F(Scheduler, ResumeCompletesAStoredSolutionThatWasNotFinal) {
+    s.on_load(true, false);
+    EXPECT_EQ(wants(), "-");
+    s.on_resume();
+    EXPECT_EQ(wants(), "start");
+}
+
+TEST_F(Scheduler, OutsideAGestureAStaleSolveStopsAtOnce) {
+    started();
+    EXPECT_EQ(edit(), "stop");
+    EXPECT_EQ(s.state(), State::Solving);
+    EXPECT_EQ(finished(Outcome::Stopped), "start");
+    EXPECT_EQ(started(), "-");
+    EXPECT_EQ(finished(Outcome::Final), "-");
+}
+
+TEST_F(Scheduler, AFinalPictureOfAnOldSceneDoesNotEndTheWork) {
+    started();
+    edit();
+    EXPECT_EQ(finished(Outcome::Final), "start");
+}
+
+TEST_F(Scheduler, WithinAGestureTheSolveRunsOnUntilRelease) {
+    started();
+    for (int i = 0; i < 100; ++i) {
+        EXPECT_EQ(edit(true), "-");
+        EXPECT_EQ(wait(16), "-");
+    }
+    s.on_gesture_end();
+    EXPECT_EQ(wants(), "stop");
+    EXPECT_EQ(finished(Outcome::Stopped), "start");
+}
+
+TEST_F(Scheduler, WithinAGestureRestStopsTheStaleSolve) {
+    started();
+    EXPECT_EQ(edit(true), "-");
+    EXPECT_EQ(wait(199), "-");
+    EXPECT_EQ(edit(true), "-") << "the hand went on: the wait starts over";
+    EXPECT_EQ(wait(199), "-");
+    EXPECT_EQ(wait(1), "stop");
+    EXPECT_EQ(finished(Outcome::Stopped), "start");
+    EXPECT_EQ(started(), "-");
+    EXPECT_EQ(wait(5000), "-") << "it is of the present scene now";
+}
+
+TEST_F(Scheduler, TheFirstEditAfterAGestureStopsTheStaleSolve) {
+    started();
+    EXPECT_EQ(edit(true), "-");
+    EXPECT_EQ(edit(false), "stop");
+}
+
+TEST_F(Scheduler, AnIdleEngineStartsWithinAGesture) {
+    started();
+    finished(Outcome::Final);
+    EXPECT_EQ(edit(true), "start");
+    EXPECT_EQ(started(), "-");
+    EXPECT_EQ(edit(true), "-");
+    EXPECT_EQ(finished(Outcome::Final), "start") << "on to where the hand is now";
+}
+
+TEST_F(Scheduler, EditsThatLeaveLightAloneNeitherStopNorStart) {
+    started();
+    s.on_edit(now(), false, false);
+    EXPECT_EQ(wants(), "-");
+    EXPECT_EQ(finished(Outcome::Final), "-");
+    s.on_edit(now(), false, false);
+    EXPECT_EQ(wants(), "-");
+    EXPECT_EQ(s.state(), State::Idle);
+}
+
+TEST_F(Scheduler, CancelHoldsUntilAnEditOfLight) {
+    started();
+    s.on_cancel();
+    EXPECT_EQ(wants(), "stop");
+    EXPECT_EQ(s.state(), State::Stopped);
+    EXPECT_EQ(finished(Outcome::Stopped), "-");
+    EXPECT_EQ(s.state(), State::Stopped);
+    s.on_edit(now(), false, false);
+    EXPECT_EQ(wants(), "-") << "a new name is no reason to go on";
+    EXPECT_EQ(edit(), "start");
+}
+
+TEST_F(Scheduler, CancelWithinAGestureStopsAtOnce) {
+    started();
+    edit(true);
+    s.on_cancel();
+    EXPECT_EQ(wants(), "stop");
+}
+
+TEST_F(Scheduler, ResumeStartsAgainAlsoWhileStillStopping) {
+    started();
+    s.on_cancel();
+    s.on_resume();
+    EXPECT_EQ(finished(Outcome::Stopped), "start");
+    started();
+    s.on_cancel();
+    finished(Outcome::Stopped);
+    s.on_resume();
+    EXPECT_EQ(wants(), "start");
+    started();
+    s.on_resume();
+    EXPECT_EQ(wants(), "-") << "it runs already";
+}
+
+TEST_F(Scheduler, CancelThatComesTooLateLeavesAFinishedPicture) {
+    started();
+    s.on_cancel();
+    EXPECT_EQ(finished(Outcome::Final), "-");
+    EXPECT_EQ(s.state(), State::Idle);
+    s.on_cancel();
+    EXPECT_EQ(s.state(), State::Idle) << "nothing to cancel";
+}
+
+TEST_F(Scheduler, CancelBeforeTheStart) {
+    s.on_cancel();
+    EXPECT_EQ(wants(), "-");
+    EXPECT_EQ(s.state(), State::Stopped);
+    s.on_resume();
+    EXPECT_EQ(wants(), "start");
+}
+
+TEST_F(Scheduler, AFailureWaitsForTheNextEditOrResume) {
+    started();
+    EXPECT_EQ(finished(Outcome::Failed), "-");
+    EXPECT_EQ(s.state(), State::Failed);
+    EXPECT_EQ(edit(), "start");
+    started();
+    finished(Outcome::Failed);
+    s.on_resume();
+    EXPECT_EQ(wants(), "start");
+    started();
+    edit(true);
+    EXPECT_EQ(finished(Outcome::Failed), "start") << "the scene is another one already";
+    s.on_failure();
+    EXPECT_EQ(wants(), "-");
+    EXPECT_EQ(s.state(), State::Failed);
+}
+
+TEST_F(Scheduler, AnotherDocumentAbandonsTheRunningSolve) {
+    started();
+    s.on_load(true, true);
+    EXPECT_TRUE(s.abandoned());
+    EXPECT_EQ(wants(), "stop");
+    EXPECT_EQ(s.state(), State::Idle);
+    EXPECT_EQ(finished(Outcome::Failed), "-");
+    EXPECT_EQ(s.state(), State::Idle) << "its failure is not the new document's";
+    EXPECT_FALSE(s.abandoned());
+
+    s.on_load(false, false);
+    started();
+    s.on_load(false, false);
+    EXPECT_EQ(finished(Outcome::Final), "start") << "its picture is not the new document's";
+}
+
+TEST_F(Scheduler, ASolverThatStopsByItselfIsNotStartedOverAndOver) {
+    started();
+    EXPECT_EQ(finished(Outcome::Stopped), "-");
+    EXPECT_EQ(s.state(), State::Idle);
+    s.on_resume();
+    EXPECT_EQ(wants(), "start");
+}
+
+} // namespace
+} // namespace atrium
