@@ -57,8 +57,18 @@ TEST(SessionLight, StopsSoonWhenItIsDestroyed) {
     scene.settings.quality = SolverSettings::Quality::Fine;
     test::add_room(scene, 4.0F, 2.5F, 3.0F, test::add_material(scene, 0.5F));
     test::add_point_light(scene, {1.0, 2.0, 1.0}, 1000.0);
-    auto session = std::make_unique<EngineSession>([] {});
+    std::mutex mutex;
+    std::condition_variable woken;
+    auto session = std::make_unique<EngineSession>([&] {
+        const std::lock_guard lock(mutex);
+        woken.notify_all();
+    });
     session->load(scene, 1, nullptr);
+    {
+        std::unique_lock lock(mutex);
+        ASSERT_TRUE(woken.wait_for(lock, 60s, [&] { return !session->status().phase.empty(); }));
+    }
+    EXPECT_EQ(session->status().state, SessionStatus::State::Solving);
     const auto start = std::chrono::steady_clock::now();
     session.reset();
     EXPECT_LT(std::chrono::steady_clock::now() - start, 5s);
