@@ -43,6 +43,9 @@ public:
     void begin_gesture(const QString& text);
     void commit_gesture();
     void cancel_gesture();
+    /// As the undo stack's, but ignored while a gesture is open (the mouse still holds what they would change).
+    void undo();
+    void redo();
 
 Q_SIGNALS:
     void reset_done();                          ///< another scene altogether
@@ -54,6 +57,7 @@ private:
     friend class EditCommand;
     Result<SceneEdit>
     apply_now(const SceneEdit& edit); ///< applies, raises the revision, emits edited(); returns the inverse
+    void absorb(const SceneEdit& edit, const SceneEdit& inverse); ///< into the open gesture
 
     Scene scene_;
     std::uint64_t revision_ = 1;

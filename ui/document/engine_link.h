@@ -31,7 +31,9 @@ Q_SIGNALS:
 
 private:
     void on_wake();
+    void on_edited(const SceneEdit& edit);
     Document& document_;
+    bool load_pending_ = true; ///< the document was replaced and the session does not have it yet
     std::atomic<bool> wake_queued_{false};
     std::shared_ptr<const Solution> shown_;
     std::unique_ptr<EngineSession> session_;

@@ -1,0 +1,117 @@
+// The editor: atrium [FILE]. With --screenshot FILE.png it opens, waits for the light, takes its own picture and quits.
+#include "ui/window/file_controller.h"
+#include "ui/window/main_window.h"
+
+#include <QApplication>
+#include <QCommandLineParser>
+#include <QFileInfo>
+#include <QSurfaceFormat>
+#include <QTextStream>
+#include <QTimer>
+
+#include <clocale>
+
+namespace {
+
+/// Saves a picture of the window once the light is up to date, or after `limit_ms`; then ends the program.
+class Screenshot : public QObject {
+public:
+    Screenshot(atrium::ui::MainWindow& window, QString file, int limit_ms)
+        : QObject(&window), window_(window), file_(std::move(file)) {
+        connect(&window_.engine(), &atrium::ui::EngineLink::status_changed, this, [this] {
+            const auto solution = window_.engine().solution();
+            if (solution && solution->final && !window_.engine().stale()) {
+                take_soon();
+            }
+        });
+        QTimer::singleShot(limit_ms, this, [this] { take(); });
+    }
+
+private:
+    void take_soon() {
+        if (!soon_) {
+            soon_ = true;
+            QTimer::singleShot(700, this, [this] { take(); }); // the view uploads and paints, panels settle
+        }
+    }
+    void take() {
+        if (taken_) {
+            return;
+        }
+        taken_ = true;
+        const bool saved = window_.grab().save(file_);
+        if (!saved) {
+            QTextStream(stderr) << QObject::tr("%1: the picture could not be written").arg(file_) << '\n';
+        }
+        QCoreApplication::exit(saved ? 0 : 1);
+    }
+    atrium::ui::MainWindow& window_;
+    QString file_;
+    bool soon_ = false;
+    bool taken_ = false;
+};
+
+} // namespace
+
+int main(int argc, char** argv) {
+    QSurfaceFormat format;
+    format.setVersion(3, 3);
+    format.setProfile(QSurfaceFormat::CoreProfile);
+    format.setDepthBufferSize(24);
+    QSurfaceFormat::setDefaultFormat(format); // before the application object, as shared contexts ask
+    QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
+    QApplication app(argc, argv);
+    std::setlocale(LC_NUMERIC, "C"); // Qt has set the user's locale; libraries that print numbers must not follow it
+    QCoreApplication::setOrganizationName(QStringLiteral("Atrium"));
+    QCoreApplication::setApplicationName(QStringLiteral("atrium"));
+    QCoreApplication::setApplicationVersion(QLatin1StringView(ATRIUM_VERSION));
+    QGuiApplication::setApplicationDisplayName(QString());
+    QGuiApplication::setDesktopFileName(QStringLiteral("atrium"));
+
+    QCommandLineParser parser;
+    parser.setApplicationDescription(QObject::tr("Edit interiors with live global illumination."));
+    parser.addHelpOption();
+    parser.addVersionOption();
+    parser.addPositionalArgument(QStringLiteral("FILE"), QObject::tr("scene to open: .gltf, .glb or .atrium"),
+                                 QStringLiteral("[FILE]"));
+    const QCommandLineOption screenshot(QStringLiteral("screenshot"),
+                                        QObject::tr("open, wait for the light, save a picture of the window, quit"),
+                                        QStringLiteral("FILE.png"));
+    const QCommandLineOption wait(QStringLiteral("screenshot-time"), QObject::tr("wait at most this long for the light"),
+                                  QStringLiteral("SECONDS"), QStringLiteral("60"));
+    const QCommandLineOption size(QStringLiteral("window-size"), QObject::tr("size of the window in points"),
+                                  QStringLiteral("WxH"));
+    const QCommandLineOption sample(QStringLiteral("sample"), QObject::tr("open the sample room"));
+    const QCommandLineOption select(QStringLiteral("select"), QObject::tr("select the node of this name"),
+                                    QStringLiteral("NODE"));
+    parser.addOptions({screenshot, wait, size, sample, select});
+    parser.process(app);
+
+    atrium::ui::MainWindow window;
+    const QStringList extent = parser.value(size).split(QLatin1Char('x'));
+    if (extent.size() == 2 && extent[0].toInt() > 0 && extent[1].toInt() > 0) {
+        window.resize(extent[0].toInt(), extent[1].toInt());
+    }
+    window.show();
+    if (parser.isSet(select)) {
+        QObject::connect(&window.files(), &atrium::ui::FileController::opened, &window, [&] {
+            const std::string wanted = parser.value(select).toStdString();
+            window.document().scene().nodes.for_each([&](atrium::NodeId id, const atrium::Node& node) {
+                if (node.name == wanted) {
+                    window.document().selection()->set({id});
+                }
+            });
+        });
+    }
+    if (!parser.positionalArguments().isEmpty()) {
+        window.files().open(parser.positionalArguments().constFirst());
+    } else if (parser.isSet(sample)) {
+        window.files().open_sample();
+    }
+    if (parser.isSet(screenshot)) {
+        new Screenshot(window, parser.value(screenshot), int(parser.value(wait).toDouble() * 1000));
+    } else {
+        window.files().offer_recovery();
+    }
+    return QApplication::exec();
+}

@@ -1,0 +1,104 @@
+// Form factors against Howell's catalogue (FF-C11, FF-C14 of the validation cases).
+#include "engine/geometry/form_factor.h"
+#include "tests/support/rooms.h"
+
+#include <array>
+#include <gtest/gtest.h>
+
+namespace atrium {
+namespace {
+
+using namespace test;
+
+// Mean of the point form factor over a rectangle by Gauss-Legendre (8 points a side, 4 x 4 panels).
+template <class F> double mean_over_unit_square(F&& f) {
+    constexpr std::array<double, 4> node{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
+    constexpr std::array<double, 4> weight{0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
+    constexpr int kPanels = 4;
+    double sum = 0.0;
+    for (int p = 0; p < kPanels * kPanels; ++p) {
+        for (int i = 0; i < 64; ++i) {
+            const auto coordinate = [&](int k, int panel, double& w) {
+                const std::size_t n = std::size_t(k % 4);
+                w *= weight[n] * 0.5 / kPanels;
+                return (panel + 0.5 + (k < 4 ? 0.5 : -0.5) * node[n]) / kPanels;
+            };
+            double w = 1.0;
+            const double x = coordinate(i % 8, p % kPanels, w);
+            const double y = coordinate(i / 8, p / kPanels, w);
+            sum += w * f(x, y);
+        }
+    }
+    return sum;
+}
+
+TEST(FormFactor, C11OpposedRectangles) {
+    // X = a/c, Y = b/c at c = 1; values of FF-C11.
+    const std::array<std::array<double, 3>, 7> cases{{{1, 1, 0.199824895698},
+                                                      {2, 2, 0.415253283577},
+                                                      {4, 4, 0.632036430014},
+                                                      {0.5, 0.5, 0.0685895888186},
+                                                      {2, 3, 0.475576436533},
+                                                      {0.01, 0.01, 3.18288667328e-05},
+                                                      {10, 0.1, 0.0467083533303}}};
+    for (const auto& [a, b, expected] : cases) {
+        const float fa = float(a), fb = float(b);
+        const std::array<vec3, 4> above{vec3(0, 1, 0), vec3(fa, 1, 0), vec3(fa, 1, fb), vec3(0, 1, fb)};
+        const double f = mean_over_unit_square([&, ca = a, cb = b](double x, double y) {
+            return form_factor_to_polygon(vec3(float(x * ca), 0, float(y * cb)), {0, 1, 0}, above);
+        });
+        EXPECT_NEAR(f / expected, 1.0, 1e-4) << a << " x " << b;
+    }
+}
+
+TEST(FormFactor, C14RectanglesWithCommonEdge) {
+    // Floor w x 1, wall h x 1 on the edge x = 0; the kernel is singular at the edge, so the panels shrink towards it.
+    const std::array<std::array<double, 3>, 5> cases{{{1, 1, 0.200043776075},
+                                                      {0.5, 1, 0.146186679106},
+                                                      {2, 1, 0.232852602795},
+                                                      {1, 2, 0.116426301398},
+                                                      {0.1, 1, 0.0432513694007}}};
+    for (const auto& [h, w, expected] : cases) {
+        const float fh = float(h);
+        const std::array<vec3, 4> wall{vec3(0, 0, 0), vec3(0, 0, 1), vec3(0, fh, 1), vec3(0, fh, 0)};
+        // Substitution x = w u^3 clusters points at the edge: dx = 3 w u^2 du.
+        const double f = mean_over_unit_square([&, cw = w](double u, double z) {
+            return 3.0 * u * u * form_factor_to_polygon(vec3(float(cw * u * u * u), 0, float(z)), {0, 1, 0}, wall);
+        });
+        EXPECT_NEAR(f / expected, 1.0, 1e-3) << "H " << h << " W " << w;
+    }
+}
+
+TEST(FormFactor, IsNeverNegativeAndClipsAtTheHorizon) {
+    const std::array<vec3, 3> half_below{vec3(-1, -1, 2), vec3(1, -1, 2), vec3(0, 1, 2)};
+    const double clipped = form_factor_to_polygon(vec3(0), {0, 1, 0}, half_below);
+    const std::array<vec3, 3> above_only{vec3(-0.5F, 0, 2), vec3(0.5F, 0, 2), vec3(0, 1, 2)};
+    EXPECT_NEAR(clipped, form_factor_to_polygon(vec3(0), {0, 1, 0}, above_only), 1e-9);
+    const std::array<vec3, 3> below{vec3(-1, -3, 2), vec3(1, -3, 2), vec3(0, -1, 2)};
+    EXPECT_EQ(form_factor_to_polygon(vec3(0), {0, 1, 0}, below), 0.0);
+}
+
+// The same two cases through the whole engine: a black receiver under an emitting rectangle holds E = M F (by area means).
+struct Pair {
+    const char* name;
+    double expected;
+    dvec3 centre;
+    dvec3 normal;
+};
+TEST(FormFactor, EngineTransfersC11AndC14) {
+    for (const Pair& pair :
+         {Pair{"C-11", 0.199824895698, {0.5, 1, 0.5}, {0, -1, 0}}, Pair{"C-14", 0.200043776075, {0, 0.5, 0.5}, {1, 0, 0}}}) {
+        Scene scene;
+        const NodeId receiver =
+            add_rectangle(scene, "receiver", {0.5, 0, 0.5}, {0, 1, 0}, {1, 0, 0}, 1, 1, add_material(scene, 0));
+        add_rectangle(scene, "source", pair.centre, pair.normal, {0, 0, 1}, 1, 1, add_material(scene, 0, 100));
+        const Solved s = solve(scene);
+        ASSERT_TRUE(s.solution);
+        const double f = mean_irradiance(scene, *s.solution, receiver) / 100.0;
+        EXPECT_NEAR(f / pair.expected, 1.0, 0.03) << pair.name;
+        std::printf("%s through the engine: F = %.5f, expected %.5f\n", pair.name, f, pair.expected);
+    }
+}
+
+} // namespace
+} // namespace atrium

@@ -1,0 +1,14 @@
+# Viewport tests: pure logic and, under Xvfb, real pictures and mouse events.
+if(TARGET atrium_ui)
+  file(GLOB viewport_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*_test.cpp ${CMAKE_CURRENT_LIST_DIR}/main.cpp
+       ${CMAKE_CURRENT_LIST_DIR}/fixture.cpp)
+  add_executable(viewport_tests ${viewport_sources})
+  target_link_libraries(viewport_tests PRIVATE atrium_ui Qt6::Test GTest::gtest)
+  target_compile_definitions(viewport_tests PRIVATE ATRIUM_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
+  target_precompile_headers(viewport_tests REUSE_FROM atrium_ui)
+  find_program(XVFB_RUN xvfb-run)
+  if(XVFB_RUN)
+    add_test(NAME viewport COMMAND ${XVFB_RUN} -a -s "-screen 0 1280x800x24" $<TARGET_FILE:viewport_tests>)
+    set_tests_properties(viewport PROPERTIES TIMEOUT 300 ENVIRONMENT "QT_QPA_PLATFORM=xcb;LC_ALL=C.UTF-8")
+  endif()
+endif()

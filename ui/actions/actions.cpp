@@ -1,0 +1,98 @@
+#include "ui/actions/actions.h"
+
+#include "ui/actions/icons.h"
+
+#include <QCoreApplication>
+#include <QKeySequence>
+
+#include <array>
+
+namespace atrium::ui {
+
+namespace {
+
+#define ATRIUM_TEXT(text) QT_TRANSLATE_NOOP("Actions", text)
+
+// clang-format off
+const std::array kTable = {
+    ActionInfo{ActionId::New, "new", ATRIUM_TEXT("&New"), "Ctrl+N", "new", ATRIUM_TEXT("Start an empty scene")},
+    ActionInfo{ActionId::Open, "open", ATRIUM_TEXT("&Open..."), "Ctrl+O", "open", ATRIUM_TEXT("Open a glTF file or an Atrium project")},
+    ActionInfo{ActionId::Import, "import", ATRIUM_TEXT("&Import..."), "Ctrl+I", "import", ATRIUM_TEXT("Add the objects of another file to this scene, in a group of their own")},
+    ActionInfo{ActionId::Save, "save", ATRIUM_TEXT("&Save"), "Ctrl+S", "save", ATRIUM_TEXT("Save the project with its light")},
+    ActionInfo{ActionId::SaveAs, "save_as", ATRIUM_TEXT("Save &As..."), "Ctrl+Shift+S", "", ATRIUM_TEXT("Save the project under another name")},
+    ActionInfo{ActionId::ExportGltf, "export_gltf", ATRIUM_TEXT("Export &glTF..."), "Ctrl+E", "", ATRIUM_TEXT("Write the scene as a glTF file for other programs")},
+    ActionInfo{ActionId::ExportPicture, "export_picture", ATRIUM_TEXT("Export &Picture..."), "Ctrl+P", "picture", ATRIUM_TEXT("Render the present view to a PNG or EXR file")},
+    ActionInfo{ActionId::Quit, "quit", ATRIUM_TEXT("&Quit"), "Ctrl+Q", "", ATRIUM_TEXT("Close Atrium")},
+    ActionInfo{ActionId::Undo, "undo", ATRIUM_TEXT("&Undo"), "Ctrl+Z", "undo", ATRIUM_TEXT("Take back the last change")},
+    ActionInfo{ActionId::Redo, "redo", ATRIUM_TEXT("&Redo"), "Ctrl+Shift+Z", "redo", ATRIUM_TEXT("Do again what was taken back")},
+    ActionInfo{ActionId::Duplicate, "duplicate", ATRIUM_TEXT("&Duplicate"), "Ctrl+D", "duplicate", ATRIUM_TEXT("Copy the selected objects in place")},
+    ActionInfo{ActionId::Delete, "delete", ATRIUM_TEXT("De&lete"), "Del", "delete", ATRIUM_TEXT("Remove the selected objects")},
+    ActionInfo{ActionId::Rename, "rename", ATRIUM_TEXT("Re&name"), "F2", "", ATRIUM_TEXT("Rename the active object in the scene tree")},
+    ActionInfo{ActionId::Hide, "hide", ATRIUM_TEXT("&Hide"), "H", "eye_off", ATRIUM_TEXT("Hide the selected objects; hidden objects take no part in the light")},
+    ActionInfo{ActionId::ShowAll, "show_all", ATRIUM_TEXT("Sho&w All"), "Alt+H", "eye", ATRIUM_TEXT("Show every hidden object")},
+    ActionInfo{ActionId::Group, "group", ATRIUM_TEXT("&Group"), "Ctrl+G", "group", ATRIUM_TEXT("Put the selected objects into a new group")},
+    ActionInfo{ActionId::SelectAll, "select_all", ATRIUM_TEXT("Select &All"), "Ctrl+A", "", ATRIUM_TEXT("Select every object that is shown and not locked")},
+    ActionInfo{ActionId::SelectNone, "select_none", ATRIUM_TEXT("Select N&one"), "Ctrl+Shift+A", "", ATRIUM_TEXT("Select nothing")},
+    ActionInfo{ActionId::AddPolygon, "add_polygon", ATRIUM_TEXT("&Polygon"), "", "polygon", ATRIUM_TEXT("Add a flat rectangle")},
+    ActionInfo{ActionId::AddBox, "add_box", ATRIUM_TEXT("&Box"), "", "box", ATRIUM_TEXT("Add a box")},
+    ActionInfo{ActionId::AddSphere, "add_sphere", ATRIUM_TEXT("&Sphere"), "", "sphere", ATRIUM_TEXT("Add a sphere")},
+    ActionInfo{ActionId::AddCylinder, "add_cylinder", ATRIUM_TEXT("C&ylinder"), "", "cylinder", ATRIUM_TEXT("Add a cylinder")},
+    ActionInfo{ActionId::AddCone, "add_cone", ATRIUM_TEXT("&Cone"), "", "cone", ATRIUM_TEXT("Add a cone")},
+    ActionInfo{ActionId::AddDisc, "add_disc", ATRIUM_TEXT("&Disc"), "", "disc", ATRIUM_TEXT("Add a disc")},
+    ActionInfo{ActionId::AddPointLight, "add_point_light", ATRIUM_TEXT("P&oint Light"), "", "point_light", ATRIUM_TEXT("Add a lamp that shines in all directions")},
+    ActionInfo{ActionId::AddSpotLight, "add_spot_light", ATRIUM_TEXT("Spo&t Light"), "", "spot_light", ATRIUM_TEXT("Add a lamp with a cone of light")},
+    ActionInfo{ActionId::AddSun, "add_sun", ATRIUM_TEXT("S&un"), "", "sun", ATRIUM_TEXT("Add sunlight")},
+    ActionInfo{ActionId::AddAreaLight, "add_area_light", ATRIUM_TEXT("&Area Light"), "", "area_light", ATRIUM_TEXT("Add a luminous disc")},
+    ActionInfo{ActionId::AddCamera, "add_camera", ATRIUM_TEXT("Ca&mera"), "", "camera", ATRIUM_TEXT("Add a camera that sees the present view")},
+    ActionInfo{ActionId::ToolSelect, "tool_select", ATRIUM_TEXT("&Select"), "Q", "select", ATRIUM_TEXT("Select objects by clicking"), true},
+    ActionInfo{ActionId::ToolMove, "tool_move", ATRIUM_TEXT("&Move"), "W", "move", ATRIUM_TEXT("Move the selected objects"), true},
+    ActionInfo{ActionId::ToolRotate, "tool_rotate", ATRIUM_TEXT("&Rotate"), "E", "rotate", ATRIUM_TEXT("Turn the selected objects"), true},
+    ActionInfo{ActionId::ToolScale, "tool_scale", ATRIUM_TEXT("S&cale"), "R", "scale", ATRIUM_TEXT("Scale the selected objects"), true},
+    ActionInfo{ActionId::FrameSelection, "frame_selection", ATRIUM_TEXT("&Frame Selection"), "F", "frame", ATRIUM_TEXT("Bring the selected objects into view")},
+    ActionInfo{ActionId::FrameAll, "frame_all", ATRIUM_TEXT("Frame &All"), "Home", "frame_all", ATRIUM_TEXT("Bring the whole scene into view")},
+    ActionInfo{ActionId::WalkMode, "walk_mode", ATRIUM_TEXT("&Walk"), "Ctrl+W", "walk", ATRIUM_TEXT("Walk through the room: W A S D to go, mouse to look, Esc to leave"), true},
+    ActionInfo{ActionId::ExposureUp, "exposure_up", ATRIUM_TEXT("&Brighter"), "Ctrl++", "brighter", ATRIUM_TEXT("Raise the exposure by a third of a stop")},
+    ActionInfo{ActionId::ExposureDown, "exposure_down", ATRIUM_TEXT("&Darker"), "Ctrl+-", "darker", ATRIUM_TEXT("Lower the exposure by a third of a stop")},
+    ActionInfo{ActionId::ExposureReset, "exposure_reset", ATRIUM_TEXT("Automatic &Exposure"), "Ctrl+0", "", ATRIUM_TEXT("Go back to automatic exposure")},
+    ActionInfo{ActionId::Wireframe, "wireframe", ATRIUM_TEXT("Wire&frame"), "Z", "wireframe", ATRIUM_TEXT("Draw the edges of the light mesh over the picture"), true},
+    ActionInfo{ActionId::StopLight, "stop_light", ATRIUM_TEXT("&Stop"), "Ctrl+.", "stop", ATRIUM_TEXT("Stop computing light; the last picture stays")},
+    ActionInfo{ActionId::ResumeLight, "resume_light", ATRIUM_TEXT("&Resume"), "Ctrl+R", "resume", ATRIUM_TEXT("Compute the light of the present scene")},
+    ActionInfo{ActionId::Commands, "commands", ATRIUM_TEXT("&Find Command..."), "Ctrl+K", "search", ATRIUM_TEXT("Find a command by typing its name")},
+    ActionInfo{ActionId::Shortcuts, "shortcuts", ATRIUM_TEXT("&Keyboard Shortcuts"), "F1", "", ATRIUM_TEXT("List every key and what it does")},
+    ActionInfo{ActionId::About, "about", ATRIUM_TEXT("&About Atrium"), "", "", ATRIUM_TEXT("Version and licence")},
+};
+// clang-format on
+static_assert(kTable.size() == std::size_t(ActionId::Count));
+
+#undef ATRIUM_TEXT
+
+QString translated(const char* text) { return QCoreApplication::translate("Actions", text); }
+
+} // namespace
+
+std::span<const ActionInfo> action_table() { return kTable; }
+
+Actions::Actions(QObject* parent) : QObject(parent) {
+    actions_.resize(kTable.size());
+    for (const ActionInfo& info : kTable) {
+        auto* action = new QAction(translated(info.text), this);
+        action->setObjectName(QLatin1StringView(info.key));
+        action->setShortcut(QKeySequence(QLatin1StringView(info.shortcut), QKeySequence::PortableText));
+        action->setCheckable(info.checkable);
+        action->setStatusTip(translated(info.tip));
+        const QString key = action->shortcut().toString(QKeySequence::NativeText);
+        action->setToolTip(key.isEmpty() ? translated(info.tip) : QStringLiteral("%1 (%2)").arg(translated(info.tip), key));
+        actions_[std::size_t(info.id)] = action;
+    }
+    actions_[std::size_t(ActionId::Quit)]->setMenuRole(QAction::QuitRole);
+    actions_[std::size_t(ActionId::About)]->setMenuRole(QAction::AboutRole);
+    refresh_icons();
+}
+
+void Actions::refresh_icons() {
+    for (const ActionInfo& info : kTable) {
+        actions_[std::size_t(info.id)]->setIcon(tinted_icon(QLatin1StringView(info.icon)));
+    }
+}
+
+} // namespace atrium::ui

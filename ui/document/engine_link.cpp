@@ -1,0 +1,76 @@
+#include "ui/document/engine_link.h"
+
+#include <QMetaObject>
+#include <QTimer>
+
+namespace atrium::ui {
+
+EngineLink::EngineLink(Document& document, QObject* parent) : QObject(parent), document_(document) {
+    session_ = std::make_unique<EngineSession>([this] {
+        // Engine thread. However much news there is, one event waits in the UI's queue.
+        if (!wake_queued_.exchange(true)) {
+            QMetaObject::invokeMethod(
+                this, [this] { on_wake(); }, Qt::QueuedConnection);
+        }
+    });
+    connect(&document_, &Document::reset_done, this, [this] {
+        shown_.reset(); // its ids belong to another document
+        load_pending_ = true;
+        Q_EMIT solution_changed();
+        // load() usually follows at once with the stored solution; without it the scene is solved from the start.
+        QTimer::singleShot(0, this, [this] {
+            if (load_pending_) {
+                load(nullptr);
+            }
+        });
+    });
+    connect(&document_, &Document::edited, this, &EngineLink::on_edited);
+    connect(&document_, &Document::gesture_finished, this, [this] { session_->end_gesture(); });
+}
+
+EngineLink::~EngineLink() { session_.reset(); } // joins the engine thread, so that no wake comes after this
+
+std::shared_ptr<const Solution> EngineLink::solution() const { return shown_; }
+
+SessionStatus EngineLink::status() const { return session_->status(); }
+
+bool EngineLink::stale() const {
+    const SessionStatus now = session_->status();
+    return !shown_ || !shown_->final || now.shown_revision < now.posted_revision;
+}
+
+void EngineLink::load(std::shared_ptr<const Solution> stored) {
+    load_pending_ = false;
+    shown_ = stored;
+    session_->load(document_.scene(), document_.revision(), std::move(stored));
+    Q_EMIT solution_changed();
+    Q_EMIT status_changed();
+}
+
+void EngineLink::cancel() { session_->cancel(); }
+
+void EngineLink::resume() { session_->resume(); }
+
+void EngineLink::on_edited(const SceneEdit& edit) {
+    if (load_pending_) {
+        load(nullptr); // takes the scene with this edit in it
+        return;
+    }
+    session_->post(edit, document_.revision(), document_.in_gesture());
+    Q_EMIT status_changed();
+}
+
+void EngineLink::on_wake() {
+    wake_queued_ = false; // before reading: news that arrives from here on queues the next event
+    std::shared_ptr<const Solution> newest = session_->latest();
+    if (load_pending_) {
+        return; // still about the document before
+    }
+    if (newest != shown_) {
+        shown_ = std::move(newest);
+        Q_EMIT solution_changed();
+    }
+    Q_EMIT status_changed();
+}
+
+} // namespace atrium::ui

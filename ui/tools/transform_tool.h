@@ -1,0 +1,122 @@
+// Move, rotate and scale by handles (and, when moving, by the object itself): one gesture, one undo entry.
+#pragma once
+
+#include "ui/document/gesture.h"
+#include "ui/tools/gizmo.h"
+#include "ui/tools/select_tool.h"
+
+#include <QString>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace atrium::ui {
+
+/// Common to the three: finds the targets, opens the gesture, follows the mouse, snaps, takes typed numbers.
+/// Ctrl snaps (0.1 m, 15 degrees, 10 %), Shift moves ten times finer, Esc restores.
+class TransformTool : public SelectTool {
+public:
+    TransformTool(ToolHost& host, GizmoKind kind) : SelectTool(host), kind_(kind) {}
+
+    void press(const Pointer& pointer) override;
+    void move(const Pointer& pointer) override;
+    void release(const Pointer& pointer) override;
+    void cancel() override;
+    [[nodiscard]] bool active() const override { return drag_ != nullptr || armed_ || SelectTool::active(); }
+    bool key(int key, const QString& text) override;
+    bool hover(const Pointer& pointer) override;
+    void draw(OverlayBatch& batch) const override;
+
+    /// The gizmo for the present selection; none when nothing movable is selected.
+    [[nodiscard]] std::optional<Gizmo> gizmo() const;
+
+protected:
+    struct Target {
+        NodeId node;
+        Transform start;
+        dmat4 parent{1.0}; ///< world matrix of the parent when the drag began
+        dmat4 parent_inverse{1.0};
+    };
+    struct Drag {
+        std::unique_ptr<Gesture> gesture;
+        std::vector<Target> targets;
+        Gizmo gizmo; ///< as it stood when the drag began
+        Handle handle = Handle::None;
+        dvec3 normal{0.0, 1.0, 0.0}; ///< of the plane that the mouse is followed in
+        dvec3 grabbed{0.0};          ///< point under the cursor at the start
+        dvec2 last_point{0.0};
+        dvec3 last_raw{0.0};
+        dvec3 amount{0.0}; ///< before snapping: metres per gizmo axis, radians in x, or factors - 1
+        bool has_raw = false;
+    };
+
+    /// Unsnapped amount for a mouse position, measured from the start; none where the geometry gives no answer.
+    virtual std::optional<dvec3> measure(const Drag& drag, const Ray& ray, const dvec2& point) const = 0;
+    [[nodiscard]] virtual dvec3 snapped(const Drag& drag, const dvec3& amount) const = 0;
+    /// Amount that a typed number stands for.
+    [[nodiscard]] virtual dvec3 from_number(const Drag& drag, double number) const = 0;
+    [[nodiscard]] virtual Transform moved(const Drag& drag, const Target& target, const dvec3& amount) const = 0;
+    [[nodiscard]] virtual QString read_out(const Drag& drag, const dvec3& amount) const = 0;
+    [[nodiscard]] virtual QString undo_text() const = 0;
+    [[nodiscard]] virtual bool drags_bodies() const { return false; }
+
+    /// Writes a signed number with the user's decimal separator.
+    static QString number(double value, int decimals);
+
+private:
+    [[nodiscard]] std::vector<NodeId> targets() const;
+    bool begin(Handle handle, const dvec2& point, std::optional<dvec3> body);
+    void apply(const dvec3& amount);
+    void finish();
+
+    GizmoKind kind_;
+    std::unique_ptr<Drag> drag_;
+    bool armed_ = false; ///< pressed on an object: a click or the start of a body drag
+    dvec2 press_point_{0.0};
+    std::optional<PickHit> press_hit_;
+    Handle hovered_ = Handle::None;
+    QString typed_;
+};
+
+class MoveTool : public TransformTool {
+public:
+    explicit MoveTool(ToolHost& host) : TransformTool(host, GizmoKind::Move) {}
+
+protected:
+    std::optional<dvec3> measure(const Drag& drag, const Ray& ray, const dvec2& point) const override;
+    [[nodiscard]] dvec3 snapped(const Drag& drag, const dvec3& amount) const override;
+    [[nodiscard]] dvec3 from_number(const Drag& drag, double number) const override;
+    [[nodiscard]] Transform moved(const Drag& drag, const Target& target, const dvec3& amount) const override;
+    [[nodiscard]] QString read_out(const Drag& drag, const dvec3& amount) const override;
+    [[nodiscard]] QString undo_text() const override;
+    [[nodiscard]] bool drags_bodies() const override { return true; }
+};
+
+class RotateTool : public TransformTool {
+public:
+    explicit RotateTool(ToolHost& host) : TransformTool(host, GizmoKind::Rotate) {}
+
+protected:
+    std::optional<dvec3> measure(const Drag& drag, const Ray& ray, const dvec2& point) const override;
+    [[nodiscard]] dvec3 snapped(const Drag& drag, const dvec3& amount) const override;
+    [[nodiscard]] dvec3 from_number(const Drag& drag, double number) const override;
+    [[nodiscard]] Transform moved(const Drag& drag, const Target& target, const dvec3& amount) const override;
+    [[nodiscard]] QString read_out(const Drag& drag, const dvec3& amount) const override;
+    [[nodiscard]] QString undo_text() const override;
+};
+
+class ScaleTool : public TransformTool {
+public:
+    explicit ScaleTool(ToolHost& host) : TransformTool(host, GizmoKind::Scale) {}
+
+protected:
+    std::optional<dvec3> measure(const Drag& drag, const Ray& ray, const dvec2& point) const override;
+    [[nodiscard]] dvec3 snapped(const Drag& drag, const dvec3& amount) const override;
+    [[nodiscard]] dvec3 from_number(const Drag& drag, double number) const override;
+    [[nodiscard]] Transform moved(const Drag& drag, const Target& target, const dvec3& amount) const override;
+    [[nodiscard]] QString read_out(const Drag& drag, const dvec3& amount) const override;
+    [[nodiscard]] QString undo_text() const override;
+};
+
+} // namespace atrium::ui

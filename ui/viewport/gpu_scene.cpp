@@ -1,0 +1,471 @@
+#include "ui/viewport/gpu_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace atrium::ui {
+namespace {
+
+constexpr int kProbeSize = 128;
+constexpr int kProbeLevels = 6;
+
+struct Vertex {
+    vec3 position;
+    std::uint32_t normal = 0; ///< 2_10_10_10, signed
+    vec2 uv0{0.0F};
+    vec2 uv1{0.0F};
+    vec3 color{1.0F};
+};
+
+std::uint32_t pack_normal(const vec3& n) {
+    const auto ten_bits = [](float x) {
+        return std::uint32_t(std::int32_t(std::lround(std::clamp(x, -1.0F, 1.0F) * 511.0F))) & 0x3FFU;
+    };
+    return ten_bits(n.x) | (ten_bits(n.y) << 10U) | (ten_bits(n.z) << 20U);
+}
+
+const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+
+/// True when a box lies wholly outside one side of the view.
+bool out_of_sight(const Box3& box, const mat4& mvp) {
+    std::array<int, 6> outside{};
+    for (int i = 0; i < 8; ++i) {
+        const vec4 p = mvp * vec4((i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
+                                  (i & 4) != 0 ? box.max.z : box.min.z, 1.0F);
+        outside[0] += p.x < -p.w;
+        outside[1] += p.x > p.w;
+        outside[2] += p.y < -p.w;
+        outside[3] += p.y > p.w;
+        outside[4] += p.z < -p.w;
+        outside[5] += p.z > p.w;
+    }
+    return std::find(outside.begin(), outside.end(), 8) != outside.end();
+}
+
+bool is_glass(const Material& m) {
+    const MaterialKind kind = classify(m);
+    return kind == MaterialKind::DielectricThin || kind == MaterialKind::DielectricSolid;
+}
+bool is_metal(const Material& m) {
+    const MaterialKind kind = classify(m);
+    return kind == MaterialKind::Mirror || kind == MaterialKind::Glossy;
+}
+bool is_blended(const Material& m) { return is_glass(m) || m.alpha_mode == Material::Alpha::Blend; }
+
+dmat4 relative_to_eye(const ViewItem& item, const dvec3& eye) {
+    dmat4 m = item.world;
+    m[3] -= dvec4(eye, 0.0);
+    return m;
+}
+
+} // namespace
+
+bool GpuScene::initialize(Gl& gl) {
+    gl_ = &gl;
+    surface_ = load_program("surface.vert", "surface.frag");
+    mask_ = load_program("mask.vert", "mask.frag");
+    if (!surface_ || !mask_) {
+        return false;
+    }
+    const std::array<std::uint8_t, 4> pixel{255, 255, 255, 255};
+    gl.glGenTextures(1, &white_);
+    gl.glBindTexture(GL_TEXTURE_2D, white_);
+    gl.glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
+    gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    return true;
+}
+
+void GpuScene::release() {
+    if (gl_ == nullptr) {
+        return;
+    }
+    for (auto& [key, array] : arrays_) {
+        gl_->glDeleteVertexArrays(1, &array.vao);
+    }
+    for (auto& [key, geometry] : geometries_) {
+        gl_->glDeleteBuffers(1, &geometry.vertices);
+        gl_->glDeleteBuffers(1, &geometry.indices);
+    }
+    for (auto& [key, lighting] : lightings_) {
+        gl_->glDeleteBuffers(1, &lighting.values);
+    }
+    arrays_.clear();
+    geometries_.clear();
+    lightings_.clear();
+    locations_.clear();
+    textures_.release(*gl_);
+    gl_->glDeleteTextures(1, &white_);
+    gl_->glDeleteTextures(1, &probe_);
+    white_ = probe_ = 0;
+    probe_ready_ = false;
+    surface_.reset();
+    mask_.reset();
+    gl_ = nullptr;
+}
+
+int GpuScene::at(const char* name) {
+    const auto found = locations_.find(name);
+    return found != locations_.end() ? found->second
+                                     : locations_.emplace(name, surface_->uniformLocation(name)).first->second;
+}
+
+void GpuScene::collect(const ViewScene& view, const Scene& scene) {
+    std::unordered_map<const DisplayMesh*, bool> meshes;
+    std::unordered_map<const SurfaceLayer*, bool> layers;
+    std::map<std::pair<NodeId, std::uint32_t>, bool> keys;
+    for (const ViewItem& item : view.items()) {
+        meshes[item.mesh.get()] = true;
+        layers[item.layer.get()] = true;
+        keys[{item.node, item.part}] = true;
+    }
+    std::erase_if(arrays_, [&](auto& entry) {
+        const bool gone = !keys.contains(entry.first) || !meshes.contains(entry.second.mesh) ||
+                          (entry.second.layer != nullptr && !layers.contains(entry.second.layer));
+        if (gone) {
+            gl_->glDeleteVertexArrays(1, &entry.second.vao);
+        }
+        return gone;
+    });
+    std::erase_if(geometries_, [&](auto& entry) {
+        const bool gone = !meshes.contains(entry.first);
+        if (gone) {
+            gl_->glDeleteBuffers(1, &entry.second.vertices);
+            gl_->glDeleteBuffers(1, &entry.second.indices);
+        }
+        return gone;
+    });
+    std::erase_if(lightings_, [&](auto& entry) {
+        const bool gone = !layers.contains(entry.first);
+        if (gone) {
+            gl_->glDeleteBuffers(1, &entry.second.values);
+        }
+        return gone;
+    });
+    textures_.collect(*gl_, scene);
+}
+
+const GpuScene::Geometry& GpuScene::geometry_of(const ViewItem& item) {
+    Geometry& g = geometries_[item.mesh.get()];
+    if (g.vertices != 0) {
+        return g;
+    }
+    const DisplayMesh& mesh = *item.mesh;
+    std::vector<Vertex> vertices(mesh.positions.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        Vertex& v = vertices[i];
+        v.position = mesh.positions[i];
+        v.normal = i < mesh.normals.size() ? pack_normal(mesh.normals[i]) : pack_normal(vec3(0, 0, 1));
+        v.uv0 = i < mesh.texcoords0.size() ? mesh.texcoords0[i] : vec2(0.0F);
+        v.uv1 = i < mesh.texcoords1.size() ? mesh.texcoords1[i] : vec2(0.0F);
+        v.color = i < mesh.colors.size() ? mesh.colors[i] : vec3(1.0F);
+        g.bounds.add(v.position);
+    }
+    g.mesh = item.mesh;
+    g.count = int(mesh.indices.size());
+    gl_->glBindVertexArray(0);
+    gl_->glGenBuffers(1, &g.vertices);
+    gl_->glBindBuffer(GL_ARRAY_BUFFER, g.vertices);
+    gl_->glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(vertices.size() * sizeof(Vertex)), vertices.data(), GL_STATIC_DRAW);
+    gl_->glGenBuffers(1, &g.indices);
+    gl_->glBindBuffer(GL_ARRAY_BUFFER, g.indices);
+    gl_->glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(mesh.indices.size() * sizeof(std::uint32_t)), mesh.indices.data(),
+                      GL_STATIC_DRAW);
+    return g;
+}
+
+const GpuScene::Lighting* GpuScene::lighting_of(const ViewItem& item) {
+    if (!item.layer || item.layer->irradiance_front.size() < item.mesh->positions.size()) {
+        return nullptr;
+    }
+    Lighting& l = lightings_[item.layer.get()];
+    if (l.values != 0) {
+        return &l;
+    }
+    const std::size_t count = item.mesh->positions.size();
+    const SurfaceLayer& layer = *item.layer;
+    l.layer = item.layer;
+    l.has_back = layer.irradiance_back.size() >= count;
+    std::vector<Rgb> values(layer.irradiance_front.begin(), layer.irradiance_front.begin() + std::ptrdiff_t(count));
+    if (l.has_back) {
+        values.insert(values.end(), layer.irradiance_back.begin(), layer.irradiance_back.begin() + std::ptrdiff_t(count));
+    }
+    gl_->glGenBuffers(1, &l.values);
+    gl_->glBindBuffer(GL_ARRAY_BUFFER, l.values);
+    gl_->glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(values.size() * sizeof(Rgb)), values.data(), GL_STATIC_DRAW);
+    return &l;
+}
+
+void GpuScene::bind(const ViewItem& item, const Geometry& geometry, const Lighting* lighting) {
+    Array& array = arrays_[{item.node, item.part}];
+    const SurfaceLayer* layer = lighting != nullptr ? item.layer.get() : nullptr;
+    if (array.vao != 0 && array.mesh == item.mesh.get() && array.layer == layer) {
+        gl_->glBindVertexArray(array.vao);
+        return;
+    }
+    if (array.vao == 0) {
+        gl_->glGenVertexArrays(1, &array.vao);
+    }
+    array.mesh = item.mesh.get();
+    array.layer = layer;
+    gl_->glBindVertexArray(array.vao);
+    gl_->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, geometry.indices);
+    gl_->glBindBuffer(GL_ARRAY_BUFFER, geometry.vertices);
+    const auto attribute = [&](GLuint index, GLint size, GLenum type, std::size_t at_byte) {
+        gl_->glEnableVertexAttribArray(index);
+        gl_->glVertexAttribPointer(index, size, type, type == GL_FLOAT ? GL_FALSE : GL_TRUE, sizeof(Vertex),
+                                   offset(at_byte));
+    };
+    attribute(0, 3, GL_FLOAT, offsetof(Vertex, position));
+    attribute(1, 4, GL_INT_2_10_10_10_REV, offsetof(Vertex, normal));
+    attribute(2, 2, GL_FLOAT, offsetof(Vertex, uv0));
+    attribute(3, 2, GL_FLOAT, offsetof(Vertex, uv1));
+    attribute(4, 3, GL_FLOAT, offsetof(Vertex, color));
+    for (const GLuint index : {5U, 6U}) {
+        const bool present = lighting != nullptr && (index == 5 || lighting->has_back);
+        if (!present) {
+            gl_->glDisableVertexAttribArray(index);
+            continue;
+        }
+        gl_->glBindBuffer(GL_ARRAY_BUFFER, lighting->values);
+        gl_->glEnableVertexAttribArray(index);
+        gl_->glVertexAttribPointer(index, 3, GL_FLOAT, GL_FALSE, sizeof(Rgb),
+                                   offset(index == 5 ? 0 : item.mesh->positions.size() * sizeof(Rgb)));
+    }
+}
+
+void GpuScene::set_sides(const ViewItem& item) {
+    // glTF: a mirroring transform turns the winding round, so that the front stays the front.
+    gl_->glFrontFace(item.mirrored ? GL_CW : GL_CCW);
+    if (item.material->double_sided) {
+        gl_->glDisable(GL_CULL_FACE);
+    } else {
+        gl_->glEnable(GL_CULL_FACE);
+    }
+}
+
+void GpuScene::draw_surface(const ViewItem& item, const Scene& scene, const DrawView& from, const mat4& mvp) {
+    const Material& m = *item.material;
+    const Geometry& geometry = geometry_of(item);
+    const Lighting* lighting = lighting_of(item);
+    Gl& gl = *gl_;
+    set_sides(item);
+    const mat4 model(relative_to_eye(item, from.eye));
+    const mat3 normal = item.flattened ? mat3(model) : mat3(glm::transpose(glm::inverse(dmat3(item.world))));
+    gl.glUniformMatrix4fv(at("u_mvp"), 1, GL_FALSE, &mvp[0][0]);
+    gl.glUniformMatrix4fv(at("u_model"), 1, GL_FALSE, &model[0][0]);
+    gl.glUniformMatrix3fv(at("u_normal"), 1, GL_FALSE, &normal[0][0]);
+    gl.glUniform4f(at("u_base"), m.base_color.r, m.base_color.g, m.base_color.b, m.alpha);
+    const Rgb emitted = m.emitted_radiance();
+    gl.glUniform3f(at("u_emitted"), emitted.r, emitted.g, emitted.b);
+    const auto texture = [&](const TextureRef& ref, int unit, const char* textured, const char* set, const char* row0,
+                             const char* row1) {
+        const unsigned name = ref ? textures_.get(gl, scene, ref.texture) : 0;
+        gl.glUniform1i(at(textured), name != 0 ? 1 : 0);
+        gl.glActiveTexture(GL_TEXTURE0 + GLenum(unit));
+        gl.glBindTexture(GL_TEXTURE_2D, name != 0 ? name : white_);
+        if (name != 0) {
+            const vec2 zero = ref.apply(vec2(0.0F));
+            const vec2 u = ref.apply(vec2(1.0F, 0.0F)) - zero;
+            const vec2 v = ref.apply(vec2(0.0F, 1.0F)) - zero;
+            gl.glUniform1i(at(set), ref.texcoord);
+            gl.glUniform3f(at(row0), u.x, v.x, zero.x);
+            gl.glUniform3f(at(row1), u.y, v.y, zero.y);
+        }
+    };
+    texture(m.base_color_texture, 0, "u_base_textured", "u_base_set", "u_base_row0", "u_base_row1");
+    texture(m.emissive_texture, 1, "u_emissive_textured", "u_emissive_set", "u_emissive_row0", "u_emissive_row1");
+    gl.glUniform1i(at("u_lit"), lighting != nullptr ? 1 : 0);
+    gl.glUniform1i(at("u_has_back"), lighting != nullptr && lighting->has_back ? 1 : 0);
+    gl.glUniform1i(at("u_unlit_material"), m.unlit ? 1 : 0);
+    gl.glUniform1i(at("u_alpha_mode"), int(m.alpha_mode));
+    gl.glUniform1f(at("u_alpha_cutoff"), m.alpha_cutoff);
+    gl.glUniform1i(at("u_kind"), is_glass(m) ? 2 : (is_metal(m) ? 1 : 0));
+    gl.glUniform1f(at("u_roughness"), m.roughness);
+    const float f = (m.ior - 1.0F) / (m.ior + 1.0F);
+    gl.glUniform1f(at("u_f0"), f * f);
+    gl.glUniform1f(at("u_diffuse_share"), m.metallic + (1.0F - m.metallic) * (1.0F - m.transmission));
+    bind(item, geometry, lighting);
+    gl.glDrawElements(GL_TRIANGLES, geometry.count, GL_UNSIGNED_INT, nullptr);
+}
+
+int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& from) {
+    Gl& gl = *gl_;
+    surface_->bind();
+    const bool probe = probe_ready_ && from.use_probe;
+    gl.glUniform1i(at("u_base_texture"), 0);
+    gl.glUniform1i(at("u_emissive_texture"), 1);
+    gl.glUniform1i(at("u_probe"), 2);
+    gl.glUniform1f(at("u_exposure"), from.exposure);
+    gl.glUniform1i(at("u_linear"), from.linear ? 1 : 0);
+    gl.glUniform1i(at("u_has_probe"), probe ? 1 : 0);
+    gl.glUniform1f(at("u_probe_levels"), float(probe_levels_));
+    const auto relative = [&](const char* name, const dvec3& p) {
+        const vec3 r(p - from.eye);
+        gl.glUniform3f(at(name), r.x, r.y, r.z);
+    };
+    relative("u_probe_centre", probe_centre_);
+    relative("u_room_min", room_.min);
+    relative("u_room_max", room_.max);
+    gl.glActiveTexture(GL_TEXTURE2);
+    gl.glBindTexture(GL_TEXTURE_CUBE_MAP, probe ? probe_ : 0);
+    gl.glEnable(GL_DEPTH_TEST);
+    gl.glDepthMask(GL_TRUE);
+    gl.glDisable(GL_BLEND);
+    gl.glCullFace(GL_BACK);
+
+    const dmat4 view_projection = from.projection * from.rotation;
+    struct Blended {
+        double distance;
+        const ViewItem* item;
+        mat4 mvp;
+    };
+    std::vector<Blended> blended;
+    int drawn = 0;
+    for (const ViewItem& item : view.items()) {
+        const mat4 mvp(view_projection * relative_to_eye(item, from.eye));
+        if (out_of_sight(item.bvh->bounds(), mvp)) {
+            continue;
+        }
+        ++drawn;
+        if (is_blended(*item.material)) {
+            const dvec3 centre(item.world * dvec4(dvec3(item.bvh->bounds().centre()), 1.0));
+            blended.push_back({glm::length(centre - from.eye), &item, mvp});
+        } else {
+            draw_surface(item, scene, from, mvp);
+        }
+    }
+    if (!blended.empty()) {
+        std::stable_sort(blended.begin(), blended.end(),
+                         [](const Blended& a, const Blended& b) { return a.distance > b.distance; });
+        gl.glEnable(GL_BLEND);
+        gl.glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+        gl.glDepthMask(GL_FALSE);
+        for (const Blended& b : blended) {
+            draw_surface(*b.item, scene, from, b.mvp);
+        }
+        gl.glDepthMask(GL_TRUE);
+        gl.glDisable(GL_BLEND);
+    }
+    gl.glFrontFace(GL_CCW);
+    gl.glDisable(GL_CULL_FACE);
+    gl.glBindVertexArray(0);
+    surface_->release();
+    return drawn;
+}
+
+void GpuScene::draw_mask(const ViewScene& view, const DrawView& from, const vec4& color,
+                         const std::function<bool(const ViewItem&)>& wanted) {
+    mask_->bind();
+    mask_->setUniformValue("u_color", QVector4D(color.r, color.g, color.b, color.a));
+    const int place = mask_->uniformLocation("u_mvp");
+    const dmat4 view_projection = from.projection * from.rotation;
+    for (const ViewItem& item : view.items()) {
+        if (!wanted(item)) {
+            continue;
+        }
+        const mat4 mvp(view_projection * relative_to_eye(item, from.eye));
+        if (out_of_sight(item.bvh->bounds(), mvp)) {
+            continue;
+        }
+        const Geometry& geometry = geometry_of(item);
+        set_sides(item);
+        gl_->glUniformMatrix4fv(place, 1, GL_FALSE, &mvp[0][0]);
+        bind(item, geometry, lighting_of(item));
+        gl_->glDrawElements(GL_TRIANGLES, geometry.count, GL_UNSIGNED_INT, nullptr);
+    }
+    gl_->glFrontFace(GL_CCW);
+    gl_->glDisable(GL_CULL_FACE);
+    gl_->glBindVertexArray(0);
+    mask_->release();
+}
+
+void GpuScene::draw_edges(const ViewScene& view, const DrawView& from) {
+    gl_->glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+    gl_->glEnable(GL_POLYGON_OFFSET_LINE);
+    gl_->glPolygonOffset(-1.0F, -1.0F);
+    gl_->glEnable(GL_BLEND);
+    gl_->glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    draw_mask(view, from, vec4(0.05F, 0.1F, 0.2F, 0.45F), [](const ViewItem&) { return true; });
+    gl_->glDisable(GL_BLEND);
+    gl_->glDisable(GL_POLYGON_OFFSET_LINE);
+    gl_->glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+bool GpuScene::update_probe(const ViewScene& view, const Scene& scene, const DBox3& room, float exposure) {
+    const bool wanted = !room.empty() && std::any_of(view.items().begin(), view.items().end(), [](const ViewItem& item) {
+        return is_glass(*item.material) || is_metal(*item.material);
+    });
+    probe_ready_ = false;
+    Gl& gl = *gl_;
+    if (!wanted) {
+        gl.glDeleteTextures(1, &probe_);
+        probe_ = 0;
+        return false;
+    }
+    if (probe_ == 0) {
+        gl.glGenTextures(1, &probe_);
+        gl.glBindTexture(GL_TEXTURE_CUBE_MAP, probe_);
+        for (GLenum face = 0; face < 6; ++face) {
+            gl.glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, GL_RGBA16F, kProbeSize, kProbeSize, 0, GL_RGBA,
+                            GL_FLOAT, nullptr);
+        }
+        gl.glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+        gl.glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        gl.glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        gl.glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        gl.glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+    }
+    room_ = room;
+    probe_centre_ = room.centre();
+    probe_levels_ = kProbeLevels;
+    unsigned framebuffer = 0;
+    unsigned depth = 0;
+    gl.glGenFramebuffers(1, &framebuffer);
+    gl.glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    gl.glGenRenderbuffers(1, &depth);
+    gl.glBindRenderbuffer(GL_RENDERBUFFER, depth);
+    gl.glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, kProbeSize, kProbeSize);
+    gl.glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+    gl.glViewport(0, 0, kProbeSize, kProbeSize);
+
+    // Cube map faces look along +x -x +y -y +z -z with these upward directions (OpenGL's own convention).
+    constexpr std::array<std::array<int, 6>, 6> kFaces{{{1, 0, 0, 0, -1, 0},
+                                                        {-1, 0, 0, 0, -1, 0},
+                                                        {0, 1, 0, 0, 0, 1},
+                                                        {0, -1, 0, 0, 0, -1},
+                                                        {0, 0, 1, 0, -1, 0},
+                                                        {0, 0, -1, 0, -1, 0}}};
+    DrawView from;
+    from.eye = probe_centre_;
+    from.exposure = exposure;
+    from.linear = true;
+    from.use_probe = false;
+    const double near_plane = 0.02;
+    const double far_plane = std::max(2.0 * room.diagonal(), 10.0);
+    from.projection = dmat4(0.0);
+    from.projection[0][0] = from.projection[1][1] = 1.0;
+    from.projection[2][2] = -(far_plane + near_plane) / (far_plane - near_plane);
+    from.projection[2][3] = -1.0;
+    from.projection[3][2] = -2.0 * far_plane * near_plane / (far_plane - near_plane);
+    const Rgb sky = scene.environment.sky_radiance;
+    for (GLenum face = 0; face < 6; ++face) {
+        const auto& f = kFaces[face];
+        const dvec3 ahead(f[0], f[1], f[2]);
+        const dvec3 up(f[3], f[4], f[5]);
+        const dvec3 right = glm::cross(ahead, up);
+        from.rotation = glm::transpose(dmat4(dvec4(right, 0), dvec4(up, 0), dvec4(-ahead, 0), dvec4(0, 0, 0, 1)));
+        gl.glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, probe_, 0);
+        gl.glClearColor(sky.r, sky.g, sky.b, 1.0F);
+        gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        draw(view, scene, from);
+    }
+    gl.glDeleteFramebuffers(1, &framebuffer);
+    gl.glDeleteRenderbuffers(1, &depth);
+    gl.glBindTexture(GL_TEXTURE_CUBE_MAP, probe_);
+    gl.glGenerateMipmap(GL_TEXTURE_CUBE_MAP);
+    probe_ready_ = true;
+    return true;
+}
+
+} // namespace atrium::ui

@@ -1,0 +1,88 @@
+// The view's items on the GPU: uploads what changed, draws what is in sight.
+#pragma once
+
+#include "ui/viewport/gl.h"
+#include "ui/viewport/texture_cache.h"
+#include "ui/viewport/view_scene.h"
+
+#include <functional>
+#include <map>
+#include <unordered_map>
+
+namespace atrium::ui {
+
+/// From where and how to draw. Geometry is placed relative to the eye in double precision.
+struct DrawView {
+    dmat4 projection{1.0};
+    dmat4 rotation{1.0};
+    dvec3 eye{0.0};
+    float exposure = 1.0F; ///< factor on radiance, exposure_scale()
+    bool linear = false;   ///< write radiance instead of display values
+    bool use_probe = true;
+};
+
+/// Needs the GL context current in every function but the constructor. UI thread only.
+class GpuScene {
+public:
+    /// Compiles the shaders; false when the driver refuses (the log has Qt's message).
+    bool initialize(Gl& gl);
+    void release();
+
+    /// Drops buffers that `view` no longer uses. New ones are uploaded when first drawn.
+    void collect(const ViewScene& view, const Scene& scene);
+    /// Opaque surfaces, then blended ones from back to front. Returns how many surfaces were drawn.
+    int draw(const ViewScene& view, const Scene& scene, const DrawView& from);
+    /// Flat silhouettes in one colour of the items that `wanted` accepts.
+    void draw_mask(const ViewScene& view, const DrawView& from, const vec4& color,
+                   const std::function<bool(const ViewItem&)>& wanted);
+    /// Edges of the display meshes.
+    void draw_edges(const ViewScene& view, const DrawView& from);
+
+    /// Renders the reflection probe if the scene shows specular materials: a small cube map of the lit surfaces at the
+    /// room's centre. Returns whether there is one.
+    bool update_probe(const ViewScene& view, const Scene& scene, const DBox3& room, float exposure);
+
+private:
+    struct Geometry {
+        unsigned vertices = 0;
+        unsigned indices = 0;
+        int count = 0;
+        Box3 bounds;
+        std::shared_ptr<const DisplayMesh> mesh; ///< keeps the key alive, so that an address is never taken for another
+    };
+    struct Lighting {
+        unsigned values = 0;
+        bool has_back = false;
+        std::shared_ptr<const SurfaceLayer> layer;
+    };
+    struct Array {
+        unsigned vao = 0;
+        const DisplayMesh* mesh = nullptr;
+        const SurfaceLayer* layer = nullptr;
+    };
+
+    const Geometry& geometry_of(const ViewItem& item);
+    const Lighting* lighting_of(const ViewItem& item);
+    void bind(const ViewItem& item, const Geometry& geometry, const Lighting* lighting);
+    void draw_surface(const ViewItem& item, const Scene& scene, const DrawView& from, const mat4& mvp);
+    void set_sides(const ViewItem& item);
+
+    Gl* gl_ = nullptr;
+    std::unique_ptr<QOpenGLShaderProgram> surface_;
+    std::unique_ptr<QOpenGLShaderProgram> mask_;
+    std::unordered_map<const char*, int> locations_; ///< by the literal's address: no hashing of text per surface
+    int at(const char* name);
+    std::unordered_map<const DisplayMesh*, Geometry> geometries_;
+    std::unordered_map<const SurfaceLayer*, Lighting> lightings_;
+    std::map<std::pair<NodeId, std::uint32_t>, Array> arrays_;
+    TextureCache textures_;
+    unsigned white_ = 0;
+
+    unsigned probe_ = 0;
+    bool probe_ready_ = false;
+    int probe_levels_ = 0;
+    dvec3 probe_centre_{0.0};
+    DBox3 room_;
+};
+
+} // namespace atrium::ui

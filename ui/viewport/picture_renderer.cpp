@@ -1,0 +1,208 @@
+#include "ui/viewport/picture_renderer.h"
+
+#include "engine/view/tone.h"
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace atrium::ui {
+namespace {
+
+constexpr int kSamples = 4;
+constexpr float kOutlineWidth = 2.0F; ///< logical pixels
+
+} // namespace
+
+bool PictureRenderer::initialize(Gl& gl) {
+    gl_ = &gl;
+    const char* renderer = reinterpret_cast<const char*>(gl.glGetString(GL_RENDERER));
+    software_ = renderer != nullptr && (std::string_view(renderer).find("llvmpipe") != std::string_view::npos ||
+                                        std::string_view(renderer).find("softpipe") != std::string_view::npos);
+    outline_ = load_program("outline.vert", "outline.frag");
+    overlay_ = load_program("overlay.vert", "overlay.frag");
+    if (!gpu_.initialize(gl) || !outline_ || !overlay_) {
+        return false;
+    }
+    gl.glGenVertexArrays(1, &empty_array_);
+    gl.glGenVertexArrays(1, &overlay_array_);
+    gl.glGenBuffers(1, &overlay_buffer_);
+    gl.glBindVertexArray(overlay_array_);
+    gl.glBindBuffer(GL_ARRAY_BUFFER, overlay_buffer_);
+    gl.glEnableVertexAttribArray(0);
+    gl.glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, sizeof(OverlayVertex), nullptr);
+    gl.glEnableVertexAttribArray(1);
+    gl.glVertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, sizeof(OverlayVertex),
+                             reinterpret_cast<const void*>(offsetof(OverlayVertex, color)));
+    gl.glBindVertexArray(0);
+    picture_good_ = mask_good_ = probe_good_ = items_good_ = false;
+    return true;
+}
+
+void PictureRenderer::release() {
+    if (gl_ == nullptr) {
+        return;
+    }
+    gpu_.release();
+    picture_.release(*gl_);
+    resolved_.release(*gl_);
+    mask_.release(*gl_);
+    gl_->glDeleteVertexArrays(1, &empty_array_);
+    gl_->glDeleteVertexArrays(1, &overlay_array_);
+    gl_->glDeleteBuffers(1, &overlay_buffer_);
+    empty_array_ = overlay_array_ = overlay_buffer_ = 0;
+    outline_.reset();
+    overlay_.reset();
+    gl_ = nullptr;
+}
+
+void PictureRenderer::paint(const FrameInput& in) {
+    if (gl_ == nullptr) {
+        return;
+    }
+    Gl& gl = *gl_;
+    if (!items_good_) {
+        gpu_.collect(in.view, in.scene);
+        items_good_ = true;
+    }
+    if (!probe_good_) {
+        gpu_.update_probe(in.view, in.scene, robust_bounds(in.scene), in.exposure);
+        probe_good_ = true;
+        picture_good_ = false;
+    }
+    DrawView from;
+    from.projection = in.camera.projection();
+    from.rotation = in.camera.rotation();
+    from.eye = in.camera.eye();
+    from.exposure = in.exposure;
+    const int samples = software_ && !in.refine ? 0 : kSamples;
+    const bool resized = picture_.width() != in.width || picture_.height() != in.height;
+    if (!picture_good_ || resized || samples > picture_samples_) {
+        draw_picture(in, from, samples);
+        mask_good_ = mask_good_ && !resized;
+    }
+    const GlTarget& shown = picture_samples_ > 0 ? resolved_ : picture_;
+    gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, shown.framebuffer());
+    gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER, in.framebuffer);
+    gl.glBlitFramebuffer(0, 0, in.width, in.height, 0, 0, in.width, in.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    draw_outlines(in, from);
+    gl.glBindFramebuffer(GL_FRAMEBUFFER, in.framebuffer);
+    gl.glViewport(0, 0, in.width, in.height);
+    draw_overlay(in);
+}
+
+void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, int samples) {
+    Gl& gl = *gl_;
+    picture_.resize(gl, in.width, in.height, samples, GL_RGBA8, true);
+    gl.glBindFramebuffer(GL_FRAMEBUFFER, picture_.framebuffer());
+    gl.glViewport(0, 0, in.width, in.height);
+    const Rgb sky = in.scene.environment.sky_radiance;
+    // Without a sky the surroundings are a neutral grey, not the black that would be true: one has to find the model.
+    const Rgb ground = max_component(sky) > 0.0F ? display_color(sky, in.exposure) : Rgb(0.27F);
+    gl.glClearColor(ground.r, ground.g, ground.b, 1.0F);
+    gl.glDepthMask(GL_TRUE);
+    gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gpu_.draw(in.view, in.scene, from);
+    if (in.wireframe) {
+        gpu_.draw_edges(in.view, from);
+    }
+    if (samples > 0) {
+        resolved_.resize(gl, in.width, in.height, 0, GL_RGBA8, false);
+        gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.framebuffer());
+        gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.framebuffer());
+        gl.glBlitFramebuffer(0, 0, in.width, in.height, 0, 0, in.width, in.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    }
+    picture_samples_ = samples;
+    picture_good_ = true;
+    ++pictures_drawn_;
+}
+
+void PictureRenderer::draw_outlines(const FrameInput& in, const DrawView& from) {
+    if (in.selected.empty() && in.hovered.empty()) {
+        return;
+    }
+    Gl& gl = *gl_;
+    gl.glDisable(GL_DEPTH_TEST);
+    gl.glDisable(GL_BLEND);
+    if (!mask_good_) {
+        mask_.resize(gl, in.width, in.height, 0, GL_RG8, false);
+        gl.glBindFramebuffer(GL_FRAMEBUFFER, mask_.framebuffer());
+        gl.glViewport(0, 0, in.width, in.height);
+        gl.glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
+        gl.glClear(GL_COLOR_BUFFER_BIT);
+        gpu_.draw_mask(in.view, from, vec4(0.0F, 1.0F, 0.0F, 0.0F), [&](const ViewItem& item) {
+            return in.hovered.contains(item.node) && !in.selected.contains(item.node);
+        });
+        gpu_.draw_mask(in.view, from, vec4(1.0F, 0.0F, 0.0F, 0.0F),
+                       [&](const ViewItem& item) { return in.selected.contains(item.node); });
+        mask_good_ = true;
+    }
+    gl.glBindFramebuffer(GL_FRAMEBUFFER, in.framebuffer);
+    gl.glViewport(0, 0, in.width, in.height);
+    // Only the part of the view that the marked things cover.
+    bool whole = false;
+    dvec2 low(1e30);
+    dvec2 high(-1e30);
+    for (const ViewItem& item : in.view.items()) {
+        if (!in.selected.contains(item.node) && !in.hovered.contains(item.node)) {
+            continue;
+        }
+        const Box3& b = item.bvh->bounds();
+        for (int corner = 0; corner < 8; ++corner) {
+            const dvec4 p((corner & 1) != 0 ? b.max.x : b.min.x, (corner & 2) != 0 ? b.max.y : b.min.y,
+                          (corner & 4) != 0 ? b.max.z : b.min.z, 1.0);
+            const auto s = in.camera.project(dvec3(item.world * p));
+            whole = whole || !s;
+            if (s) {
+                low = glm::min(low, *s);
+                high = glm::max(high, *s);
+            }
+        }
+    }
+    if (!whole) {
+        if (low.x > high.x) {
+            return;
+        }
+        const dvec2 limit(in.camera.width(), in.camera.height());
+        low = glm::clamp(low - 6.0, dvec2(0.0), limit) * in.pixel_ratio;
+        high = glm::clamp(high + 6.0, dvec2(0.0), limit) * in.pixel_ratio;
+        gl.glEnable(GL_SCISSOR_TEST);
+        gl.glScissor(int(low.x), in.height - int(high.y) - 1, int(high.x - low.x) + 2, int(high.y - low.y) + 2);
+    }
+    gl.glEnable(GL_BLEND);
+    gl.glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    outline_->bind();
+    outline_->setUniformValue("u_mask", 0);
+    outline_->setUniformValue("u_radius", float(kOutlineWidth * float(in.pixel_ratio)));
+    gl.glActiveTexture(GL_TEXTURE0);
+    gl.glBindTexture(GL_TEXTURE_2D, mask_.texture());
+    gl.glBindVertexArray(empty_array_);
+    gl.glDrawArrays(GL_TRIANGLES, 0, 3);
+    gl.glBindVertexArray(0);
+    outline_->release();
+    gl.glDisable(GL_SCISSOR_TEST);
+    gl.glDisable(GL_BLEND);
+}
+
+void PictureRenderer::draw_overlay(const FrameInput& in) {
+    const auto& vertices = in.overlay.vertices();
+    if (vertices.empty()) {
+        return;
+    }
+    Gl& gl = *gl_;
+    gl.glDisable(GL_DEPTH_TEST);
+    gl.glDisable(GL_CULL_FACE);
+    gl.glEnable(GL_BLEND);
+    gl.glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    overlay_->bind();
+    overlay_->setUniformValue("u_size", float(in.camera.width()), float(in.camera.height()));
+    gl.glBindVertexArray(overlay_array_);
+    gl.glBindBuffer(GL_ARRAY_BUFFER, overlay_buffer_);
+    gl.glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(vertices.size() * sizeof(OverlayVertex)), vertices.data(), GL_STREAM_DRAW);
+    gl.glDrawArrays(GL_TRIANGLES, 0, GLsizei(vertices.size()));
+    gl.glBindVertexArray(0);
+    overlay_->release();
+    gl.glDisable(GL_BLEND);
+}
+
+} // namespace atrium::ui

@@ -1,0 +1,72 @@
+// One frame of the viewport: the scene's picture (kept while nothing changes), outlines and flat overlays over it.
+#pragma once
+
+#include "ui/viewport/gpu_scene.h"
+#include "ui/viewport/overlay_batch.h"
+
+#include <unordered_set>
+
+namespace atrium::ui {
+
+/// What paint() needs to know; references are good for the call only.
+struct FrameInput {
+    const Scene& scene;
+    const ViewScene& view;
+    const CameraController& camera;
+    const OverlayBatch& overlay;
+    const std::unordered_set<NodeId>& selected; ///< with everything below them
+    const std::unordered_set<NodeId>& hovered;
+    float exposure = 1.0F; ///< factor on radiance
+    bool wireframe = false;
+    bool refine = false; ///< smooth edges where the interactive picture goes without
+    int width = 1;       ///< device pixels
+    int height = 1;
+    double pixel_ratio = 1.0;
+    unsigned framebuffer = 0; ///< to draw into
+};
+
+/// Context current in every function but the constructor and the invalidate functions. UI thread only.
+class PictureRenderer {
+public:
+    bool initialize(Gl& gl);
+    void release();
+
+    void invalidate_picture() { picture_good_ = mask_good_ = false; } ///< camera, geometry, light or exposure changed
+    void invalidate_mask() { mask_good_ = false; }                    ///< selection or hover changed
+    void invalidate_probe() { probe_good_ = false; }                  ///< the scene's light changed at rest
+    void invalidate_items() { items_good_ = false; }                  ///< the view scene was synchronised
+
+    void paint(const FrameInput& in);
+
+    /// True on a software rasteriser, where the interactive picture has no smoothed edges.
+    [[nodiscard]] bool software() const { return software_; }
+    /// True when the last paint() drew a picture that `refine` would better.
+    [[nodiscard]] bool wants_refining() const { return software_ && picture_samples_ == 0; }
+    /// Number of times that the scene itself was drawn, for tests and measurements.
+    [[nodiscard]] int pictures_drawn() const { return pictures_drawn_; }
+
+private:
+    void draw_picture(const FrameInput& in, const DrawView& from, int samples);
+    void draw_outlines(const FrameInput& in, const DrawView& from);
+    void draw_overlay(const FrameInput& in);
+
+    Gl* gl_ = nullptr;
+    GpuScene gpu_;
+    GlTarget picture_;
+    GlTarget resolved_;
+    GlTarget mask_;
+    std::unique_ptr<QOpenGLShaderProgram> outline_;
+    std::unique_ptr<QOpenGLShaderProgram> overlay_;
+    unsigned overlay_array_ = 0;
+    unsigned overlay_buffer_ = 0;
+    unsigned empty_array_ = 0;
+    bool software_ = false;
+    bool picture_good_ = false;
+    bool mask_good_ = false;
+    bool probe_good_ = false;
+    bool items_good_ = false;
+    int picture_samples_ = 0;
+    int pictures_drawn_ = 0;
+};
+
+} // namespace atrium::ui

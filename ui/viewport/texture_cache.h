@@ -1,0 +1,31 @@
+// Textures of the scene on the GPU: sRGB decoding and mipmaps by the hardware, rows as in glTF (v = 0 is the first row).
+#pragma once
+
+#include "engine/scene/scene.h"
+#include "ui/viewport/gl.h"
+
+#include <unordered_map>
+
+namespace atrium::ui {
+
+/// All functions need the context current.
+class TextureCache {
+public:
+    /// GL name of a texture, uploaded on first use or when its image was exchanged; 0 when it has no image.
+    unsigned get(Gl& gl, const Scene& scene, TextureId id);
+    /// Drops textures that the scene no longer has.
+    void collect(Gl& gl, const Scene& scene);
+    void release(Gl& gl);
+
+private:
+    struct Entry {
+        std::shared_ptr<const Image> image;
+        Texture::Wrap wrap_u = Texture::Wrap::Repeat;
+        Texture::Wrap wrap_v = Texture::Wrap::Repeat;
+        bool nearest = false;
+        unsigned name = 0;
+    };
+    std::unordered_map<TextureId, Entry> entries_;
+};
+
+} // namespace atrium::ui

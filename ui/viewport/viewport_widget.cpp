@@ -1,0 +1,675 @@
+#include "ui/viewport/viewport_widget.h"
+
+#include "engine/view/tone.h"
+#include "ui/tools/transform_tool.h"
+#include "ui/viewport/markers.h"
+#include "ui/viewport/picture_renderer.h"
+
+#include <QElapsedTimer>
+#include <QMouseEvent>
+#include <QNativeGestureEvent>
+#include <QOpenGLContext>
+#include <QOpenGLVersionFunctionsFactory>
+#include <QSet>
+#include <QTimer>
+#include <QWheelEvent>
+
+#include <algorithm>
+#include <array>
+#include <unordered_set>
+
+namespace atrium::ui {
+namespace {
+
+constexpr int kRefineAfterMs = 350;
+constexpr int kWalkTickMs = 16;
+constexpr double kPinchSteps = 6.0; ///< dolly steps for a pinch to twice the size
+
+/// A new mean is taken over at rest when it differs by more than this factor: somebody switched the lights.
+constexpr double kMeanJump = 8.0;
+
+dvec2 to_vec(const QPointF& p) { return {p.x(), p.y()}; }
+
+} // namespace
+
+struct ViewportWidget::Impl : ToolHost {
+    enum class Navigation : std::uint8_t { None, Orbit, Pan, Look };
+
+    ViewportWidget& widget;
+    Document& doc;
+    EngineLink& engine;
+    CameraController controller;
+    ViewScene view;
+    PictureRenderer renderer;
+    Gl* gl = nullptr;
+    OverlayBatch overlay;
+    std::vector<Marker> markers;
+    std::shared_ptr<const Solution> solution;
+
+    std::array<std::unique_ptr<Tool>, 4> tools;
+    ToolKind tool_kind = ToolKind::Select;
+    float exposure_ev = 0;
+    double mean_radiance = 0;
+    bool mean_is_final = false;
+    bool wireframe = false;
+    bool refine = false;
+    bool items_dirty = true;
+    bool markers_dirty = true;
+
+    std::unordered_set<NodeId> selected;
+    std::unordered_set<NodeId> hovered;
+    NodeId hovered_node;
+
+    Navigation navigation = Navigation::None;
+    Qt::MouseButton pressed = Qt::NoButton;
+    dvec3 pivot{0.0};
+    dvec2 last_point{0.0};
+    /// Newest mouse position that nothing has answered yet: moves are answered once per turn of the event loop.
+    std::optional<Pointer> pending;
+    QTimer pending_timer;
+    QTimer refine_timer;
+
+    bool walking = false;
+    QSet<int> walk_keys;
+    bool walk_fast = false;
+    double eye_height = CameraController::kEyeHeight;
+    QTimer walk_timer;
+    QElapsedTimer walk_clock;
+
+    Impl(ViewportWidget& w, Document& d, EngineLink& e) : widget(w), doc(d), engine(e) {
+        tools[0] = std::make_unique<SelectTool>(*this);
+        tools[1] = std::make_unique<MoveTool>(*this);
+        tools[2] = std::make_unique<RotateTool>(*this);
+        tools[3] = std::make_unique<ScaleTool>(*this);
+        pending_timer.setSingleShot(true);
+        pending_timer.setInterval(0);
+        refine_timer.setSingleShot(true);
+        refine_timer.setInterval(kRefineAfterMs);
+        walk_timer.setInterval(kWalkTickMs);
+        QObject::connect(&pending_timer, &QTimer::timeout, &widget, [this] { flush(); });
+        QObject::connect(&refine_timer, &QTimer::timeout, &widget, [this] {
+            refine = true;
+            widget.update();
+        });
+        QObject::connect(&walk_timer, &QTimer::timeout, &widget, [this] { walk_step(); });
+        QObject::connect(&doc, &Document::reset_done, &widget, [this] { document_reset(); });
+        QObject::connect(&doc, &Document::edited, &widget, [this](const SceneEdit& edit) {
+            view.note_edit(doc.scene(), edit, doc.revision());
+            scene_changed();
+            if (!doc.in_gesture()) {
+                renderer.invalidate_probe();
+            }
+        });
+        QObject::connect(&doc, &Document::gesture_finished, &widget, [this] {
+            renderer.invalidate_probe();
+            picture_changed();
+        });
+        QObject::connect(doc.selection(), &Selection::changed, &widget, [this] { selection_changed(); });
+        QObject::connect(&engine, &EngineLink::solution_changed, &widget, [this] { take_solution(); });
+    }
+
+    // ---- ToolHost ----
+    Document& document() override { return doc; }
+    [[nodiscard]] const CameraController& camera() const override { return controller; }
+    void show_message(const QString& text) override { Q_EMIT widget.message(text); }
+    [[nodiscard]] std::optional<PickHit> pick(const dvec2& point) const override {
+        const Ray ray = controller.ray(point);
+        const Marker* marker =
+            marker_at(markers, controller, point, [this](NodeId id) { return doc.selection()->contains(id); });
+        if (marker != nullptr) {
+            PickHit hit;
+            hit.node = marker->node;
+            hit.point = marker->position;
+            hit.distance = glm::length(marker->position - ray.origin);
+            return hit;
+        }
+        return view.pick(ray);
+    }
+
+    [[nodiscard]] Tool& tool() { return *tools[std::size_t(tool_kind)]; }
+    [[nodiscard]] float scale() const { return exposure_scale(mean_radiance, exposure_ev); }
+
+    // ---- what changed ----
+    void picture_changed() {
+        renderer.invalidate_picture();
+        markers_dirty = true;
+        refine = false;
+        widget.update();
+    }
+    void scene_changed() {
+        items_dirty = true;
+        picture_changed();
+    }
+    void selection_changed() {
+        selected.clear();
+        for (const NodeId id : doc.selection()->nodes()) {
+            for (const NodeId below : doc.scene().in_tree_order(id)) {
+                selected.insert(below);
+            }
+        }
+        renderer.invalidate_mask();
+        widget.update();
+    }
+    void set_hovered(NodeId id) {
+        if (id == hovered_node) {
+            return;
+        }
+        hovered_node = id;
+        hovered.clear();
+        if (id) {
+            hovered.insert(id);
+        }
+        renderer.invalidate_mask();
+        widget.update();
+    }
+    void document_reset() {
+        cancel();
+        view.clear();
+        solution.reset();
+        mean_radiance = 0;
+        mean_is_final = false;
+        set_hovered({});
+        items_dirty = true;
+        renderer.invalidate_probe();
+        controller.set_scene_bounds(robust_bounds(doc.scene()));
+        open_view();
+        selection_changed();
+        picture_changed();
+    }
+    void open_view() {
+        if (doc.scene().bounds().empty()) {
+            ViewCamera start;
+            start.to_world = dmat4(dvec4(0.8, 0.0, -0.6, 0.0), dvec4(-0.18, 0.954, -0.24, 0.0),
+                                   dvec4(0.572, 0.3, 0.763, 0.0), dvec4(4.0, 2.6, 5.3, 1.0));
+            controller.set_camera(start);
+            return;
+        }
+        controller.set_camera(initial_view(doc.scene()));
+    }
+    void take_solution() {
+        solution = engine.solution();
+        if (solution && solution->mean_radiance > 0.0) {
+            // The picture must not pump while one edits: the mean is taken over while the first picture converges,
+            // and afterwards only when the light has changed out of all proportion.
+            const double ratio = mean_radiance > 0.0 ? solution->mean_radiance / mean_radiance : 0.0;
+            const bool jump = ratio > kMeanJump || ratio < 1.0 / kMeanJump;
+            if (!mean_is_final || (jump && solution->final && !doc.in_gesture())) {
+                mean_radiance = solution->mean_radiance;
+                mean_is_final = solution->final;
+            }
+        }
+        renderer.invalidate_probe();
+        scene_changed();
+    }
+    /// Brings the items up to date before anything is asked of them.
+    void sync() {
+        if (items_dirty) {
+            items_dirty = false;
+            view.sync(doc.scene(), solution);
+            renderer.invalidate_items();
+            markers = find_markers(doc.scene());
+            markers_dirty = true;
+            if (!doc.in_gesture()) {
+                controller.set_scene_bounds(robust_bounds(doc.scene()));
+            }
+        }
+        if (markers_dirty) {
+            markers_dirty = false;
+            find_hidden(markers, view, controller);
+        }
+    }
+
+    // ---- mouse ----
+    [[nodiscard]] dvec3 point_under(const dvec2& point) const {
+        const Ray ray = controller.ray(point);
+        const auto hit = view.pick(ray);
+        if (hit) {
+            return hit->point;
+        }
+        const DBox3 box = doc.scene().subtree_bounds(doc.selection()->active());
+        if (doc.selection()->active() && !box.empty()) {
+            return box.centre();
+        }
+        return ray.at(controller.focus_distance());
+    }
+    void flush() {
+        pending_timer.stop();
+        if (!pending) {
+            return;
+        }
+        const Pointer pointer = *pending;
+        pending.reset();
+        sync();
+        if (navigation != Navigation::None) {
+            navigate(pointer.position);
+        } else if (tool().active()) {
+            tool().move(pointer);
+            widget.update();
+        } else {
+            if (tool().hover(pointer)) {
+                widget.update();
+            }
+            const auto hit = pick(pointer.position);
+            set_hovered(hit ? hit->node : NodeId{});
+        }
+    }
+    void navigate(const dvec2& point) {
+        const dvec2 delta = point - last_point;
+        last_point = point;
+        if (glm::length(delta) == 0.0) {
+            return;
+        }
+        switch (navigation) {
+        case Navigation::Orbit: controller.orbit(delta, pivot); break;
+        case Navigation::Pan: controller.pan(delta, pivot); break;
+        case Navigation::Look: controller.look(delta); break;
+        case Navigation::None: return;
+        }
+        picture_changed();
+    }
+    [[nodiscard]] Navigation navigation_for(const QMouseEvent& event) const {
+        const bool inside = [&] {
+            const DBox3 box = robust_bounds(doc.scene());
+            const dvec3 e = controller.eye();
+            return !box.empty() && glm::all(glm::greaterThan(e, box.min)) && glm::all(glm::lessThan(e, box.max));
+        }();
+        switch (event.button()) {
+        case Qt::MiddleButton: return event.modifiers().testFlag(Qt::ShiftModifier) ? Navigation::Pan : Navigation::Orbit;
+        case Qt::LeftButton:
+            if (event.modifiers().testFlag(Qt::AltModifier)) {
+                return event.modifiers().testFlag(Qt::ShiftModifier) ? Navigation::Pan : Navigation::Orbit;
+            }
+            return walking ? Navigation::Look : Navigation::None;
+        case Qt::RightButton: return walking || inside ? Navigation::Look : Navigation::Orbit;
+        default: return Navigation::None;
+        }
+    }
+    void cancel() {
+        pending.reset();
+        navigation = Navigation::None;
+        pressed = Qt::NoButton;
+        tool().cancel();
+        widget.update();
+    }
+
+    // ---- walking ----
+    static bool is_walk_key(int key) {
+        switch (key) {
+        case Qt::Key_W:
+        case Qt::Key_A:
+        case Qt::Key_S:
+        case Qt::Key_D:
+        case Qt::Key_Q:
+        case Qt::Key_E:
+        case Qt::Key_Up:
+        case Qt::Key_Down:
+        case Qt::Key_Left:
+        case Qt::Key_Right: return true;
+        default: return false;
+        }
+    }
+    [[nodiscard]] WalkInput walk_input() const {
+        const auto held = [this](int a, int b) { return walk_keys.contains(a) || walk_keys.contains(b) ? 1.0 : 0.0; };
+        WalkInput input;
+        input.forward = held(Qt::Key_W, Qt::Key_Up) - held(Qt::Key_S, Qt::Key_Down);
+        input.right = held(Qt::Key_D, Qt::Key_Right) - held(Qt::Key_A, Qt::Key_Left);
+        input.up = held(Qt::Key_E, Qt::Key_E) - held(Qt::Key_Q, Qt::Key_Q);
+        input.fast = walk_fast;
+        return input;
+    }
+    void start_walk_timer() {
+        if (!walk_timer.isActive()) {
+            walk_clock.restart();
+            walk_timer.start();
+        }
+    }
+    void walk_step() {
+        // A slow frame must not become a leap through a wall.
+        const double seconds = std::min(double(walk_clock.restart()) / 1000.0, 0.15);
+        sync();
+        WalkInput input = walk_input();
+        eye_height = std::clamp(eye_height + input.up * seconds, 0.4, 3.0);
+        input.up = 0;
+        const dvec3 before = controller.eye();
+        controller.walk(input, seconds);
+        const auto floor = view.pick({controller.eye(), dvec3(0.0, -1.0, 0.0)});
+        if (floor) {
+            controller.settle_on_floor(floor->point.y, seconds, eye_height);
+        } else {
+            input.up = walk_input().up;
+            controller.walk(WalkInput{0, 0, input.up, input.fast}, seconds);
+        }
+        if (glm::length(controller.eye() - before) > 1e-4) {
+            picture_changed();
+        } else if (walk_keys.isEmpty()) {
+            walk_timer.stop();
+        }
+    }
+    void frame(const DBox3& box) {
+        controller.frame(box);
+        picture_changed();
+    }
+};
+
+ViewportWidget::ViewportWidget(Document& document, EngineLink& engine, QWidget* parent)
+    : QOpenGLWidget(parent), impl_(std::make_unique<Impl>(*this, document, engine)) {
+    QSurfaceFormat wanted = format();
+    wanted.setVersion(3, 3);
+    wanted.setProfile(QSurfaceFormat::CoreProfile);
+    wanted.setSamples(0); // smoothing happens in our own target, where the picture is kept
+    setFormat(wanted);
+    setFocusPolicy(Qt::StrongFocus);
+    setMouseTracking(true);
+    setMinimumSize(160, 120);
+    setAccessibleName(tr("3D view"));
+    impl_->solution = engine.solution();
+    if (!document.scene().roots.empty()) {
+        const auto solution = impl_->solution;
+        impl_->document_reset();
+        impl_->solution = solution;
+        if (solution) {
+            impl_->take_solution();
+        }
+    } else {
+        impl_->open_view();
+    }
+}
+
+ViewportWidget::~ViewportWidget() {
+    impl_->tool().cancel();
+    makeCurrent();
+    impl_->renderer.release();
+    doneCurrent();
+}
+
+void ViewportWidget::set_tool(ToolKind kind) {
+    if (kind == impl_->tool_kind) {
+        return;
+    }
+    impl_->cancel();
+    impl_->tool_kind = kind;
+    update();
+    Q_EMIT tool_changed(kind);
+}
+ToolKind ViewportWidget::tool() const { return impl_->tool_kind; }
+
+void ViewportWidget::frame_selection() {
+    const Scene& scene = impl_->doc.scene();
+    DBox3 box;
+    for (const NodeId id : impl_->doc.selection()->nodes()) {
+        const DBox3 b = scene.subtree_bounds(id);
+        if (!b.empty()) {
+            box.add(b);
+        } else if (scene.nodes.contains(id)) {
+            const dvec3 place(scene.world_matrix(id)[3]);
+            box.add(place - 0.5);
+            box.add(place + 0.5);
+        }
+    }
+    if (box.empty()) {
+        frame_all();
+    } else {
+        impl_->frame(box);
+    }
+}
+void ViewportWidget::frame_all() { impl_->frame(robust_bounds(impl_->doc.scene())); }
+
+void ViewportWidget::set_walk_mode(bool on) {
+    if (on == impl_->walking) {
+        return;
+    }
+    impl_->cancel();
+    impl_->walking = on;
+    impl_->walk_keys.clear();
+    impl_->eye_height = CameraController::kEyeHeight;
+    if (on) {
+        setFocus(Qt::OtherFocusReason);
+        impl_->start_walk_timer();
+        Q_EMIT message(tr("Walk: W A S D to go, drag to look, Q E lower or raise the eye, Shift faster, Esc leaves"));
+    } else {
+        impl_->walk_timer.stop();
+        Q_EMIT message(QString());
+    }
+    Q_EMIT walk_mode_changed(on);
+}
+bool ViewportWidget::walk_mode() const { return impl_->walking; }
+
+void ViewportWidget::set_exposure(float ev) {
+    if (ev != impl_->exposure_ev && std::isfinite(ev)) {
+        impl_->exposure_ev = ev;
+        impl_->picture_changed();
+    }
+}
+float ViewportWidget::exposure() const { return impl_->exposure_ev; }
+
+void ViewportWidget::set_wireframe(bool on) {
+    if (on != impl_->wireframe) {
+        impl_->wireframe = on;
+        impl_->picture_changed();
+    }
+}
+
+ViewCamera ViewportWidget::camera() const {
+    ViewCamera out = impl_->controller.camera();
+    out.lens.exposure_ev = impl_->exposure_ev;
+    return out;
+}
+void ViewportWidget::set_camera(const ViewCamera& camera) {
+    impl_->controller.set_camera(camera);
+    impl_->picture_changed();
+}
+
+dvec3 ViewportWidget::placement_point() const {
+    impl_->sync();
+    const CameraController& camera = impl_->controller;
+    const Ray ray = camera.ray({0.5 * camera.width(), 0.5 * camera.height()});
+    const dvec3 down(0.0, -1.0, 0.0);
+    if (const auto hit = impl_->view.pick(ray)) {
+        if (hit->normal.y > 0.7) {
+            return hit->point;
+        }
+        // A wall or a ceiling: the floor in front of it.
+        const auto floor = impl_->view.pick({hit->point + hit->normal * 0.5 - ray.direction * 0.01, down});
+        return floor ? floor->point : hit->point;
+    }
+    if (const auto ground = meet_plane(ray, dvec3(0.0), dvec3(0.0, 1.0, 0.0));
+        ground && glm::length(*ground - ray.origin) < 50.0) {
+        return *ground;
+    }
+    const dvec3 ahead = ray.at(std::min(camera.focus_distance(), 5.0));
+    const auto floor = impl_->view.pick({ahead, down});
+    return floor ? floor->point : ahead;
+}
+
+void ViewportWidget::initializeGL() {
+    connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] {
+        makeCurrent();
+        impl_->renderer.release();
+        doneCurrent();
+    });
+    impl_->gl = QOpenGLVersionFunctionsFactory::get<QOpenGLFunctions_3_3_Core>(context());
+    if (impl_->gl == nullptr || !impl_->gl->initializeOpenGLFunctions() || !impl_->renderer.initialize(*impl_->gl)) {
+        impl_->renderer.release();
+        impl_->gl = nullptr;
+        Q_EMIT message(tr("The 3D view needs OpenGL 3.3. Update the graphics driver, or start with software rendering: "
+                          "LIBGL_ALWAYS_SOFTWARE=1"));
+    }
+}
+
+void ViewportWidget::paintGL() {
+    if (impl_->gl == nullptr) {
+        return;
+    }
+    impl_->controller.set_viewport(width(), height());
+    impl_->sync();
+    impl_->overlay.clear();
+    const auto selected = [this](NodeId id) { return impl_->selected.contains(id); };
+    if (impl_->view.items().empty()) {
+        draw_grid(impl_->overlay, impl_->controller);
+    }
+    if (!impl_->walking) {
+        draw_markers(impl_->overlay, impl_->markers, impl_->controller, selected, impl_->hovered_node);
+        impl_->tool().draw(impl_->overlay);
+    }
+    draw_axes(impl_->overlay, impl_->controller);
+    const double ratio = devicePixelRatioF();
+    FrameInput in{impl_->doc.scene(),
+                  impl_->view,
+                  impl_->controller,
+                  impl_->overlay,
+                  impl_->selected,
+                  impl_->hovered,
+                  impl_->scale(),
+                  impl_->wireframe,
+                  impl_->refine,
+                  std::max(1, int(std::lround(width() * ratio))),
+                  std::max(1, int(std::lround(height() * ratio))),
+                  ratio,
+                  defaultFramebufferObject()};
+    impl_->renderer.paint(in);
+    if (impl_->renderer.wants_refining() && !impl_->refine) {
+        impl_->refine_timer.start();
+    }
+}
+
+void ViewportWidget::resizeGL(int /*width*/, int /*height*/) {
+    impl_->controller.set_viewport(width(), height());
+    impl_->picture_changed();
+}
+
+void ViewportWidget::mousePressEvent(QMouseEvent* event) {
+    impl_->flush();
+    if (impl_->pressed != Qt::NoButton) {
+        return; // a second button changes nothing about a drag
+    }
+    setFocus(Qt::MouseFocusReason);
+    impl_->sync();
+    const dvec2 point = to_vec(event->position());
+    impl_->pressed = event->button();
+    impl_->navigation = impl_->navigation_for(*event);
+    impl_->refine_timer.stop();
+    if (impl_->navigation != Impl::Navigation::None) {
+        impl_->last_point = point;
+        impl_->pivot = impl_->point_under(point);
+        impl_->set_hovered({});
+    } else if (event->button() == Qt::LeftButton) {
+        if (event->type() == QEvent::MouseButtonDblClick) {
+            if (const auto hit = impl_->pick(point)) {
+                impl_->doc.selection()->set({hit->node});
+                frame_selection();
+            }
+            impl_->pressed = Qt::NoButton;
+            return;
+        }
+        impl_->set_hovered({});
+        impl_->tool().press({point, event->modifiers()});
+        update();
+    } else {
+        impl_->pressed = Qt::NoButton;
+    }
+}
+
+void ViewportWidget::mouseMoveEvent(QMouseEvent* event) {
+    impl_->pending = Pointer{to_vec(event->position()), event->modifiers()};
+    if (!impl_->pending_timer.isActive()) {
+        impl_->pending_timer.start();
+    }
+}
+
+void ViewportWidget::mouseReleaseEvent(QMouseEvent* event) {
+    impl_->flush();
+    if (event->button() != impl_->pressed) {
+        return;
+    }
+    const dvec2 point = to_vec(event->position());
+    impl_->pressed = Qt::NoButton;
+    if (impl_->navigation != Impl::Navigation::None) {
+        impl_->navigate(point);
+        impl_->navigation = Impl::Navigation::None;
+    } else if (impl_->tool().active()) {
+        impl_->sync();
+        impl_->tool().release({point, event->modifiers()});
+        update();
+    }
+}
+
+void ViewportWidget::wheelEvent(QWheelEvent* event) {
+    impl_->flush();
+    impl_->sync();
+    // Trackpads send pixels, mice eighths of a degree (120 to a notch).
+    const double steps = event->pixelDelta().isNull() ? event->angleDelta().y() / 120.0 : event->pixelDelta().y() / 60.0;
+    if (steps != 0.0) {
+        impl_->controller.dolly(steps, impl_->point_under(to_vec(event->position())));
+        impl_->picture_changed();
+    }
+    event->accept();
+}
+
+void ViewportWidget::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_Escape && impl_->tool().active()) {
+        impl_->cancel();
+    } else if (event->key() == Qt::Key_Escape && impl_->walking) {
+        set_walk_mode(false);
+    } else if (impl_->tool().active() && impl_->tool().key(event->key(), event->text())) {
+        update();
+    } else if (impl_->walking && (Impl::is_walk_key(event->key()) || event->key() == Qt::Key_Shift)) {
+        impl_->walk_fast = event->modifiers().testFlag(Qt::ShiftModifier);
+        if (!event->isAutoRepeat() && event->key() != Qt::Key_Shift) {
+            impl_->walk_keys.insert(event->key());
+            impl_->start_walk_timer();
+        }
+    } else {
+        QOpenGLWidget::keyPressEvent(event);
+    }
+}
+
+void ViewportWidget::keyReleaseEvent(QKeyEvent* event) {
+    impl_->walk_fast = event->modifiers().testFlag(Qt::ShiftModifier) && event->key() != Qt::Key_Shift;
+    if (impl_->walking && Impl::is_walk_key(event->key())) {
+        if (!event->isAutoRepeat()) {
+            impl_->walk_keys.remove(event->key());
+        }
+        return;
+    }
+    QOpenGLWidget::keyReleaseEvent(event);
+}
+
+void ViewportWidget::focusOutEvent(QFocusEvent* event) {
+    impl_->walk_keys.clear();
+    if (impl_->tool().active()) {
+        impl_->cancel();
+    }
+    QOpenGLWidget::focusOutEvent(event);
+}
+
+bool ViewportWidget::event(QEvent* event) {
+    switch (event->type()) {
+    case QEvent::ShortcutOverride: {
+        const auto* key = static_cast<QKeyEvent*>(event);
+        const bool walk_key = impl_->walking && (key->key() == Qt::Key_Escape || Impl::is_walk_key(key->key()));
+        if (impl_->tool().active() || walk_key) {
+            event->accept();
+            return true;
+        }
+        break;
+    }
+    case QEvent::Leave:
+        impl_->pending.reset();
+        impl_->set_hovered({});
+        break;
+    case QEvent::NativeGesture: {
+        const auto* gesture = static_cast<QNativeGestureEvent*>(event);
+        if (gesture->gestureType() == Qt::ZoomNativeGesture) {
+            impl_->sync();
+            impl_->controller.dolly(gesture->value() * kPinchSteps, impl_->point_under(to_vec(gesture->position())));
+            impl_->picture_changed();
+            return true;
+        }
+        break;
+    }
+    default: break;
+    }
+    return QOpenGLWidget::event(event);
+}
+
+} // namespace atrium::ui

@@ -1,0 +1,134 @@
+#include "ui/window/export_picture_dialog.h"
+
+#include "engine/io/image_file.h"
+#include "engine/view/tone.h"
+#include "ui/document/background.h"
+#include "ui/panels/number_field.h"
+
+#include <QDialogButtonBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+namespace atrium::ui {
+
+ExportPictureDialog::ExportPictureDialog(Scene scene, std::shared_ptr<const Solution> solution, ViewCamera camera,
+                                         float exposure, const QString& suggestion, QWidget* parent)
+    : QDialog(parent), scene_(std::move(scene)), solution_(std::move(solution)), camera_(std::move(camera)),
+      exposure_(exposure), suggestion_(suggestion), fraction_(std::make_shared<std::atomic<double>>(0.0)) {
+    setWindowTitle(tr("Export Picture"));
+    auto* layout = new QVBoxLayout(this);
+    auto* form = new QFormLayout;
+    const auto number = [&](const QString& label, double value, double minimum, double maximum, const QString& suffix) {
+        auto* field = new NumberField(NumberFormat::plain(minimum, maximum, 0, suffix));
+        field->set_value(value);
+        field->setAccessibleName(label);
+        auto* title = new QLabel(label);
+        field->attach_label(title);
+        form->addRow(title, field);
+        return field;
+    };
+    width_ = number(tr("Width"), 1920, 16, 16384, tr(" px"));
+    height_ = number(tr("Height"), 1080, 16, 16384, tr(" px"));
+    samples_ = number(tr("Samples per pixel side"), 2, 1, 8, {});
+    layout->addLayout(form);
+    auto* note = new QLabel(tr("PNG is shown as in the view; EXR holds linear values in cd/m\u00b2."));
+    note->setEnabled(false);
+    layout->addWidget(note);
+    bar_ = new QProgressBar;
+    bar_->setRange(0, 1000);
+    bar_->setEnabled(false);
+    layout->addWidget(bar_);
+    error_ = new QLabel;
+    error_->setWordWrap(true);
+    error_->hide();
+    layout->addWidget(error_);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
+    start_ = buttons->addButton(tr("Render..."), QDialogButtonBox::AcceptRole);
+    layout->addWidget(buttons);
+    connect(buttons, &QDialogButtonBox::accepted, this, &ExportPictureDialog::choose_file);
+    connect(buttons, &QDialogButtonBox::rejected, this, [this] {
+        if (running_) {
+            stop_.request_stop(); // the answer closes nothing: the settings stay for another try
+        } else {
+            reject();
+        }
+    });
+    poll_.setInterval(100);
+    connect(&poll_, &QTimer::timeout, this, [this] { bar_->setValue(int(fraction_->load() * 1000)); });
+}
+
+ExportPictureDialog::~ExportPictureDialog() { stop_.request_stop(); }
+
+void ExportPictureDialog::choose_file() {
+    if (running_) {
+        return;
+    }
+    auto* dialog = new QFileDialog(this, tr("Export Picture"), suggestion_, tr("PNG picture (*.png);;OpenEXR (*.exr)"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setAcceptMode(QFileDialog::AcceptSave);
+    dialog->setFileMode(QFileDialog::AnyFile);
+    dialog->setDefaultSuffix(QStringLiteral("png"));
+    dialog->selectFile(QFileInfo(suggestion_).fileName());
+    connect(dialog, &QFileDialog::filterSelected, dialog, [dialog](const QString& filter) {
+        dialog->setDefaultSuffix(filter.contains(QLatin1StringView("exr")) ? QStringLiteral("exr") : QStringLiteral("png"));
+    });
+    connect(dialog, &QFileDialog::fileSelected, this, &ExportPictureDialog::render);
+    dialog->open();
+}
+
+void ExportPictureDialog::render(const QString& path) {
+    StillOptions options;
+    options.width = int(width_->value());
+    options.height = int(height_->value());
+    options.samples_per_axis = int(samples_->value());
+    RunContext context;
+    stop_ = StopFlag();
+    context.stop = stop_;
+    *fraction_ = 0;
+    context.on_progress = [fraction = fraction_](const Progress& progress) { fraction->store(progress.fraction); };
+    running_ = true;
+    start_->setEnabled(false);
+    bar_->setEnabled(true);
+    error_->hide();
+    poll_.start();
+    run_in_background(
+        this,
+        [scene = scene_, solution = solution_, camera = camera_, exposure = exposure_, options, context,
+         path]() -> Result<bool> {
+            Picture picture = render_still(scene, *solution, camera, options, context);
+            if (context.should_stop()) {
+                return false;
+            }
+            if (path.endsWith(QLatin1StringView(".png"), Qt::CaseInsensitive)) {
+                const float scale = exposure_scale(solution->mean_radiance, exposure);
+                for (vec3& pixel : picture.pixels) {
+                    pixel = display_color(pixel, scale);
+                }
+            }
+            if (auto done = write_picture(std::filesystem::path(path.toStdU16String()), picture); !done) {
+                return tl::unexpected<Error>(done.error());
+            }
+            return true;
+        },
+        [this, path](const Result<bool>& done) {
+            running_ = false;
+            poll_.stop();
+            start_->setEnabled(true);
+            bar_->setValue(0);
+            bar_->setEnabled(false);
+            if (!done) {
+                error_->setText(QString::fromStdString(done.error().message()));
+                error_->show();
+            } else if (*done) {
+                Q_EMIT message(tr("Picture written to %1.").arg(path));
+                accept();
+            }
+        });
+}
+
+} // namespace atrium::ui

@@ -1,0 +1,53 @@
+// Renders the present view to a picture file, with progress and cancel; the window stays usable meanwhile.
+#pragma once
+
+#include "engine/view/still.h"
+
+#include <QDialog>
+#include <QTimer>
+
+#include <atomic>
+#include <memory>
+
+class QLabel;
+class QProgressBar;
+class QPushButton;
+
+namespace atrium::ui {
+
+class NumberField;
+
+/// UI thread only. Keeps its own copy of scene, solution and camera, so later edits do not reach the picture.
+class ExportPictureDialog : public QDialog {
+    Q_OBJECT
+public:
+    /// `exposure` in stops over automatic exposure, for PNG; EXR is linear cd/m2.
+    ExportPictureDialog(Scene scene, std::shared_ptr<const Solution> solution, ViewCamera camera, float exposure,
+                        const QString& suggestion, QWidget* parent);
+    ~ExportPictureDialog() override;
+
+Q_SIGNALS:
+    void message(const QString& text);
+
+private:
+    void choose_file();
+    void render(const QString& path);
+
+    Scene scene_;
+    std::shared_ptr<const Solution> solution_;
+    ViewCamera camera_;
+    float exposure_;
+    QString suggestion_;
+    NumberField* width_ = nullptr;
+    NumberField* height_ = nullptr;
+    NumberField* samples_ = nullptr;
+    QProgressBar* bar_ = nullptr;
+    QLabel* error_ = nullptr;
+    QPushButton* start_ = nullptr;
+    QTimer poll_;
+    StopFlag stop_;
+    std::shared_ptr<std::atomic<double>> fraction_;
+    bool running_ = false;
+};
+
+} // namespace atrium::ui

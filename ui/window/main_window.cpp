@@ -1,0 +1,529 @@
+#include "ui/window/main_window.h"
+
+#include "ui/actions/actions.h"
+#include "ui/actions/edit_controller.h"
+#include "ui/actions/icons.h"
+#include "ui/panels/jobs_panel.h"
+#include "ui/panels/problems_panel.h"
+#include "ui/panels/properties_panel.h"
+#include "ui/panels/scene_tree_panel.h"
+#include "ui/viewport/viewport_widget.h"
+#include "ui/window/export_picture_dialog.h"
+#include "ui/window/file_controller.h"
+#include "ui/window/help_dialogs.h"
+#include "ui/window/import_bar.h"
+#include "ui/window/settings.h"
+#include "ui/window/start_page.h"
+
+#include <QActionGroup>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QDragEnterEvent>
+#include <QFileInfo>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMimeData>
+#include <QProgressBar>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+namespace atrium::ui {
+
+namespace {
+
+constexpr float kExposureStep = 1.0F / 3.0F;
+constexpr int kMessageMs = 6000;
+
+QString dropped_file(const QMimeData* data) {
+    for (const QUrl& url : data->urls()) {
+        const QString path = url.toLocalFile();
+        for (const char* suffix : {".gltf", ".glb", ".atrium"}) {
+            if (path.endsWith(QLatin1StringView(suffix), Qt::CaseInsensitive)) {
+                return path;
+            }
+        }
+    }
+    return {};
+}
+
+const std::pair<ActionId, ToolKind> kTools[] = {{ActionId::ToolSelect, ToolKind::Select},
+                                                {ActionId::ToolMove, ToolKind::Move},
+                                                {ActionId::ToolRotate, ToolKind::Rotate},
+                                                {ActionId::ToolScale, ToolKind::Scale}};
+
+const std::pair<ActionId, NewObject> kAdd[] = {{ActionId::AddPolygon, NewObject::Polygon},
+                                               {ActionId::AddBox, NewObject::Box},
+                                               {ActionId::AddSphere, NewObject::Sphere},
+                                               {ActionId::AddCylinder, NewObject::Cylinder},
+                                               {ActionId::AddCone, NewObject::Cone},
+                                               {ActionId::AddDisc, NewObject::Disc},
+                                               {ActionId::AddPointLight, NewObject::PointLight},
+                                               {ActionId::AddSpotLight, NewObject::SpotLight},
+                                               {ActionId::AddSun, NewObject::Sun},
+                                               {ActionId::AddAreaLight, NewObject::AreaLight}};
+
+} // namespace
+
+MainWindow::MainWindow(const QString& recovery_directory, QWidget* parent) : QMainWindow(parent) {
+    setObjectName(QStringLiteral("main_window"));
+    setAcceptDrops(true);
+    setDockOptions(AnimatedDocks | AllowTabbedDocks | AllowNestedDocks);
+    recovery_ = std::make_unique<Recovery>(document_, recovery_directory.isEmpty() ? Recovery::default_directory()
+                                                                                   : recovery_directory);
+    engine_ = new EngineLink(document_, this);
+    actions_ = new Actions(this);
+    files_ = new FileController(document_, *engine_, *recovery_, this);
+    edit_ = new EditController(document_, this);
+
+    auto* centre = new QWidget;
+    auto* layout = new QVBoxLayout(centre);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    import_bar_ = new ImportBar;
+    pages_ = new QStackedWidget;
+    start_ = new StartPage(*actions_);
+    viewport_ = new ViewportWidget(document_, *engine_);
+    viewport_->setMinimumSize(320, 240);
+    pages_->addWidget(start_);
+    pages_->addWidget(viewport_);
+    layout->addWidget(import_bar_);
+    layout->addWidget(pages_, 1);
+    setCentralWidget(centre);
+
+    make_docks();
+    make_menus();
+    make_tool_bar();
+    make_status_bar();
+    connect_files();
+    connect_edit();
+    connect_view();
+    connect_documents();
+
+    resize(1360, 860);
+    const Settings settings;
+    if (!settings.geometry().isEmpty()) {
+        restoreGeometry(settings.geometry());
+        restoreState(settings.layout());
+    }
+    update_recent();
+    update_title();
+    update_actions();
+    update_page();
+}
+
+MainWindow::~MainWindow() {
+    // Panels and viewport look at document and engine, which are members: they go first.
+    document_.disconnect();
+    document_.undo_stack()->disconnect();
+    document_.selection()->disconnect();
+    const QList<QDockWidget*> docks = findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly);
+    qDeleteAll(docks);
+    delete takeCentralWidget();
+    delete files_;
+    delete engine_;
+}
+
+QAction* MainWindow::action(ActionId id) const { return (*actions_)[id]; }
+
+void MainWindow::on(ActionId id, std::function<void()> slot) {
+    connect((*actions_)[id], &QAction::triggered, this, [slot = std::move(slot)] { slot(); });
+}
+
+void MainWindow::say(const QString& text) { statusBar()->showMessage(text, kMessageMs); }
+
+void MainWindow::make_docks() {
+    const auto dock = [this](const char* name, const QString& title, QWidget* content, Qt::DockWidgetArea area) {
+        auto* widget = new QDockWidget(title, this);
+        widget->setObjectName(QLatin1StringView(name));
+        widget->setWidget(content);
+        addDockWidget(area, widget);
+        return widget;
+    };
+    setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+    tree_ = new SceneTreePanel(document_);
+    properties_ = new PropertiesPanel(document_);
+    auto* problems = new ProblemsPanel(document_);
+    auto* jobs = new JobsPanel(*engine_);
+    auto* tree_dock = dock("dock_tree", tr("Scene"), tree_, Qt::RightDockWidgetArea);
+    auto* properties_dock = dock("dock_properties", tr("Properties"), properties_, Qt::RightDockWidgetArea);
+    auto* problems_dock = dock("dock_problems", tr("Problems"), problems, Qt::RightDockWidgetArea);
+    auto* jobs_dock = dock("dock_jobs", tr("Light"), jobs, Qt::RightDockWidgetArea);
+    splitDockWidget(tree_dock, properties_dock, Qt::Vertical);
+    tabifyDockWidget(properties_dock, jobs_dock);
+    tabifyDockWidget(jobs_dock, problems_dock);
+    properties_dock->raise();
+    setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
+    resizeDocks({tree_dock, properties_dock}, {260, 520}, Qt::Vertical);
+    resizeDocks({tree_dock, properties_dock}, {320, 320}, Qt::Horizontal);
+
+    connect(tree_, &SceneTreePanel::activated, this, [this] { viewport_->frame_selection(); });
+    connect(tree_, &SceneTreePanel::message, this, &MainWindow::say);
+    connect(problems, &ProblemsPanel::activated_node, this, [this] { viewport_->frame_selection(); });
+    connect(problems, &ProblemsPanel::count_changed, this, [this, problems_dock](int errors, int warnings) {
+        const int all = errors + warnings;
+        problems_dock->setWindowTitle(all == 0 ? tr("Problems") : tr("Problems (%1)").arg(all));
+        problems_badge_->setVisible(all != 0);
+        problems_badge_->setIcon(tinted_icon(errors != 0 ? QStringLiteral("error") : QStringLiteral("warning")));
+        problems_badge_->setText(QString::number(all));
+    });
+    connect(properties_, &PropertiesPanel::message, this, &MainWindow::say);
+    connect(properties_, &PropertiesPanel::look_through, this, [this](NodeId id) {
+        const Node* node = document_.scene().nodes.find(id);
+        const Camera* lens = node == nullptr ? nullptr : document_.scene().cameras.find(node->camera);
+        if (lens != nullptr) {
+            viewport_->set_camera({document_.scene().world_matrix(id), *lens});
+        }
+    });
+}
+
+void MainWindow::make_menus() {
+    const Actions& a = *actions_;
+    auto* file = menuBar()->addMenu(tr("&File"));
+    file->addAction(a[ActionId::New]);
+    file->addAction(a[ActionId::Open]);
+    recent_menu_ = file->addMenu(tr("Open &Recent"));
+    file->addAction(a[ActionId::Import]);
+    file->addSeparator();
+    file->addAction(a[ActionId::Save]);
+    file->addAction(a[ActionId::SaveAs]);
+    file->addSeparator();
+    file->addAction(a[ActionId::ExportGltf]);
+    file->addAction(a[ActionId::ExportPicture]);
+    file->addSeparator();
+    file->addAction(a[ActionId::Quit]);
+
+    const auto fill = [&](const QString& title, std::initializer_list<ActionId> ids) {
+        auto* menu = menuBar()->addMenu(title);
+        for (const ActionId id : ids) {
+            if (id == ActionId::Count) {
+                menu->addSeparator();
+            } else {
+                menu->addAction(a[id]);
+            }
+        }
+        return menu;
+    };
+    const ActionId gap = ActionId::Count;
+    fill(tr("&Edit"), {ActionId::Undo,
+                       ActionId::Redo,
+                       gap,
+                       ActionId::Duplicate,
+                       ActionId::Delete,
+                       ActionId::Rename,
+                       ActionId::Group,
+                       gap,
+                       ActionId::Hide,
+                       ActionId::ShowAll,
+                       gap,
+                       ActionId::SelectAll,
+                       ActionId::SelectNone,
+                       gap,
+                       ActionId::ToolSelect,
+                       ActionId::ToolMove,
+                       ActionId::ToolRotate,
+                       ActionId::ToolScale,
+                       gap,
+                       ActionId::Commands});
+    fill(tr("&Add"), {ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder, ActionId::AddCone,
+                      ActionId::AddDisc, gap, ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight,
+                      ActionId::AddSun, gap, ActionId::AddCamera});
+    auto* view =
+        fill(tr("&View"), {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap, ActionId::ExposureUp,
+                           ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::Wireframe, gap});
+    docks_menu_ = view->addMenu(tr("&Panels"));
+    const QList<QDockWidget*> docks = findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly);
+    for (QDockWidget* dock : docks) {
+        docks_menu_->addAction(dock->toggleViewAction());
+    }
+    fill(tr("&Light"), {ActionId::StopLight, ActionId::ResumeLight});
+    fill(tr("&Help"), {ActionId::Shortcuts, gap, ActionId::About});
+}
+
+void MainWindow::make_tool_bar() {
+    const Actions& a = *actions_;
+    auto* bar = addToolBar(tr("Tools"));
+    bar->setObjectName(QStringLiteral("tool_bar"));
+    bar->setMovable(false);
+    bar->setIconSize({20, 20});
+    bar->setContextMenuPolicy(Qt::PreventContextMenu);
+    const auto add = [&](std::initializer_list<ActionId> ids) {
+        for (const ActionId id : ids) {
+            bar->addAction(a[id]);
+        }
+        bar->addSeparator();
+    };
+    add({ActionId::Open, ActionId::Save});
+    add({ActionId::Undo, ActionId::Redo});
+    auto* group = new QActionGroup(this);
+    for (const auto& [id, tool] : kTools) {
+        group->addAction(a[id]);
+        bar->addAction(a[id]);
+    }
+    bar->addSeparator();
+    add({ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder, ActionId::AddPolygon});
+    add({ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight});
+    add({ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, ActionId::Wireframe});
+    add({ActionId::ExposureDown, ActionId::ExposureUp});
+    bar->addAction(a[ActionId::StopLight]);
+    bar->addAction(a[ActionId::ResumeLight]);
+}
+
+void MainWindow::make_status_bar() {
+    busy_text_ = new QLabel;
+    busy_bar_ = new QProgressBar;
+    busy_bar_->setRange(0, 0);
+    busy_bar_->setMaximumSize(120, 12);
+    busy_bar_->setTextVisible(false);
+    busy_bar_->setAccessibleName(tr("File progress"));
+    busy_cancel_ = new QToolButton;
+    busy_cancel_->setIcon(tinted_icon(QStringLiteral("close")));
+    busy_cancel_->setToolTip(tr("Cancel opening"));
+    busy_cancel_->setAccessibleName(tr("Cancel opening"));
+    busy_cancel_->setAutoRaise(true);
+    connect(busy_cancel_, &QToolButton::clicked, files_, &FileController::cancel_loading);
+    problems_badge_ = new QToolButton;
+    problems_badge_->setAutoRaise(true);
+    problems_badge_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    problems_badge_->setToolTip(tr("Show the problems of this scene"));
+    problems_badge_->setAccessibleName(tr("Number of problems"));
+    problems_badge_->hide();
+    connect(problems_badge_, &QToolButton::clicked, this, [this] {
+        if (auto* dock = findChild<QDockWidget*>(QStringLiteral("dock_problems"))) {
+            dock->show();
+            dock->raise();
+        }
+    });
+    for (QWidget* widget :
+         std::initializer_list<QWidget*>{busy_text_, busy_bar_, busy_cancel_, problems_badge_, new LightBadge(*engine_)}) {
+        statusBar()->addPermanentWidget(widget);
+    }
+    for (QWidget* widget : std::initializer_list<QWidget*>{busy_text_, busy_bar_, busy_cancel_}) {
+        widget->hide();
+    }
+}
+
+void MainWindow::connect_files() {
+    on(ActionId::New, [this] { files_->new_scene(); });
+    on(ActionId::Open, [this] { files_->ask_and_open(); });
+    on(ActionId::Import, [this] { files_->ask_and_import(); });
+    on(ActionId::Save, [this] { files_->save(); });
+    on(ActionId::SaveAs, [this] { files_->save_as(); });
+    on(ActionId::ExportGltf, [this] { files_->ask_and_export_gltf(); });
+    on(ActionId::ExportPicture, [this] { export_picture(); });
+    on(ActionId::Quit, [this] { close(); });
+    connect(start_, &StartPage::sample_requested, files_, &FileController::open_sample);
+    connect(start_, &StartPage::file_requested, files_, &FileController::open);
+    connect(files_, &FileController::message, this, &MainWindow::say);
+    connect(files_, &FileController::recent_changed, this, &MainWindow::update_recent);
+    connect(files_, &FileController::opened, this, [this] {
+        started_ = true;
+        import_bar_->dismiss();
+        update_page();
+        viewport_->setFocus();
+    });
+    connect(files_, &FileController::import_suggested, import_bar_, &ImportBar::offer);
+    connect(import_bar_, &ImportBar::accepted, this, [this](const ImportSuggestion& suggestion) {
+        edit_->fix_import(suggestion);
+        viewport_->frame_all();
+    });
+    connect(files_, &FileController::busy_changed, this, [this](const QString& what, bool can_cancel) {
+        busy_text_->setText(what);
+        busy_text_->setVisible(!what.isEmpty());
+        busy_bar_->setVisible(!what.isEmpty());
+        busy_cancel_->setVisible(can_cancel);
+        if (what.isEmpty() && closing_) {
+            close(); // asked for while a file was being written
+        }
+    });
+    connect(recovery_.get(), &Recovery::failed, this,
+            [this](const QString& why) { say(tr("Autosave failed: %1").arg(why)); });
+}
+
+void MainWindow::connect_edit() {
+    on(ActionId::Undo, [this] { document_.undo(); });
+    on(ActionId::Redo, [this] { document_.redo(); });
+    on(ActionId::Duplicate, [this] { edit_->duplicate(); });
+    on(ActionId::Delete, [this] { edit_->remove(); });
+    on(ActionId::Rename, [this] { tree_->rename_active(); });
+    on(ActionId::Hide, [this] { edit_->hide(); });
+    on(ActionId::ShowAll, [this] { edit_->show_all(); });
+    on(ActionId::Group, [this] { edit_->group(); });
+    on(ActionId::SelectAll, [this] { edit_->select_all(); });
+    on(ActionId::SelectNone, [this] { edit_->select_none(); });
+    for (const auto& [id, kind] : kAdd) {
+        on(id, [this, what = kind] {
+            const bool was_empty = document_.scene().nodes.empty();
+            started_ = true;
+            update_page();
+            edit_->add(what, was_empty ? dvec3(0.0) : viewport_->placement_point());
+            if (was_empty) {
+                viewport_->frame_all();
+            }
+        });
+    }
+    on(ActionId::AddCamera, [this] { edit_->add_camera_here(viewport_->camera()); });
+    connect(edit_, &EditController::message, this, &MainWindow::say);
+}
+
+void MainWindow::connect_view() {
+    for (const auto& [id, tool] : kTools) {
+        on(id, [this, kind = tool] { viewport_->set_tool(kind); });
+    }
+    const auto show_tool = [this](ToolKind tool) {
+        for (const auto& [id, kind] : kTools) {
+            if (kind == tool) {
+                (*actions_)[id]->setChecked(true);
+            }
+        }
+    };
+    connect(viewport_, &ViewportWidget::tool_changed, this, show_tool);
+    show_tool(viewport_->tool());
+    on(ActionId::FrameSelection, [this] { viewport_->frame_selection(); });
+    on(ActionId::FrameAll, [this] { viewport_->frame_all(); });
+    connect((*actions_)[ActionId::WalkMode], &QAction::toggled, viewport_, &ViewportWidget::set_walk_mode);
+    connect(viewport_, &ViewportWidget::walk_mode_changed, this, [this](bool walking) {
+        (*actions_)[ActionId::WalkMode]->setChecked(walking);
+        if (walking) {
+            viewport_->setFocus();
+        }
+        // Letters walk now; as shortcuts they would never reach the view.
+        for (const ActionInfo& info : action_table()) {
+            if (qstrlen(info.shortcut) == 1) {
+                (*actions_)[info.id]->setEnabled(!walking);
+            }
+        }
+        update_actions();
+    });
+    const auto expose = [this](float ev) {
+        viewport_->set_exposure(ev);
+        say(tr("Exposure %1%2 EV").arg(ev > 0 ? QStringLiteral("+") : QString()).arg(double(ev), 0, 'f', 1));
+    };
+    on(ActionId::ExposureUp, [this, expose] { expose(viewport_->exposure() + kExposureStep); });
+    on(ActionId::ExposureDown, [this, expose] { expose(viewport_->exposure() - kExposureStep); });
+    on(ActionId::ExposureReset, [expose] { expose(0); });
+    connect((*actions_)[ActionId::Wireframe], &QAction::toggled, viewport_, &ViewportWidget::set_wireframe);
+    connect(viewport_, &ViewportWidget::message, this, &MainWindow::say);
+    on(ActionId::StopLight, [this] { engine_->cancel(); });
+    on(ActionId::ResumeLight, [this] { engine_->resume(); });
+    on(ActionId::Shortcuts, [this] { show_shortcut_list(this); });
+    on(ActionId::About, [this] { show_about_box(this); });
+    on(ActionId::Commands, [this] { show_command_search(*actions_, this); });
+}
+
+void MainWindow::connect_documents() {
+    connect(&document_, &Document::path_changed, this, &MainWindow::update_title);
+    connect(document_.undo_stack(), &QUndoStack::cleanChanged, this, &MainWindow::update_title);
+    connect(document_.undo_stack(), &QUndoStack::indexChanged, this, &MainWindow::update_actions);
+    connect(document_.undo_stack(), &QUndoStack::cleanChanged, this, &MainWindow::update_actions);
+    connect(document_.selection(), &Selection::changed, this, &MainWindow::update_actions);
+    connect(&document_, &Document::reset_done, this, &MainWindow::update_actions);
+    connect(engine_, &EngineLink::status_changed, this, &MainWindow::update_actions);
+}
+
+void MainWindow::update_title() {
+    const QString name = document_.path().isEmpty() ? tr("Untitled") : QFileInfo(document_.path()).fileName();
+    setWindowTitle(tr("%1[*] - Atrium").arg(name));
+    setWindowFilePath(document_.path());
+    setWindowModified(!document_.undo_stack()->isClean());
+}
+
+void MainWindow::update_actions() {
+    const QUndoStack* undo = document_.undo_stack();
+    const auto name = [this](ActionId id, bool possible, const QString& plain, const QString& what) {
+        QAction* action = (*actions_)[id];
+        action->setEnabled(possible);
+        action->setText(possible && !what.isEmpty() ? tr("%1: %2").arg(plain, what) : plain);
+    };
+    name(ActionId::Undo, undo->canUndo(), tr("&Undo"), undo->undoText());
+    name(ActionId::Redo, undo->canRedo(), tr("&Redo"), undo->redoText());
+    const bool selected = !document_.selection()->nodes().empty();
+    const bool walking = viewport_->walk_mode();
+    for (const ActionId id : {ActionId::Duplicate, ActionId::Delete, ActionId::Rename, ActionId::Group}) {
+        (*actions_)[id]->setEnabled(selected);
+    }
+    (*actions_)[ActionId::Hide]->setEnabled(selected && !walking);
+    const bool solving = engine_->status().state == SessionStatus::State::Solving;
+    (*actions_)[ActionId::StopLight]->setEnabled(solving);
+    (*actions_)[ActionId::ResumeLight]->setEnabled(!solving && engine_->stale());
+    (*actions_)[ActionId::ExportPicture]->setEnabled(bool(engine_->solution()));
+}
+
+void MainWindow::update_page() {
+    if (!document_.scene().nodes.empty() || !document_.path().isEmpty()) {
+        started_ = true;
+    }
+    pages_->setCurrentWidget(started_ ? static_cast<QWidget*>(viewport_) : start_);
+}
+
+void MainWindow::update_recent() {
+    const QStringList files = Settings().recent_files();
+    start_->set_recent(files);
+    recent_menu_->clear();
+    recent_menu_->setEnabled(!files.isEmpty());
+    for (const QString& file : files) {
+        QAction* action = recent_menu_->addAction(QFileInfo(file).fileName());
+        action->setStatusTip(file);
+        connect(action, &QAction::triggered, this, [this, file] { files_->open(file); });
+    }
+}
+
+void MainWindow::export_picture() {
+    const std::shared_ptr<const Solution> solution = engine_->solution();
+    if (!solution) {
+        say(tr("There is no light to render yet."));
+        return;
+    }
+    const Settings settings;
+    const QString base = document_.path().isEmpty() ? tr("Untitled") : QFileInfo(document_.path()).completeBaseName();
+    auto* dialog = new ExportPictureDialog(document_.scene(), solution, viewport_->camera(), viewport_->exposure(),
+                                           settings.last_folder() + QLatin1Char('/') + base + QStringLiteral(".png"), this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &ExportPictureDialog::message, this, &MainWindow::say);
+    dialog->open();
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+    if (files_->saving()) {
+        closing_ = true;
+        event->ignore();
+        return;
+    }
+    closing_ = false;
+    if (!document_.undo_stack()->isClean()) {
+        event->ignore();
+        files_->when_saved([this] {
+            // Not from inside the message box's own signal: the window goes when that has returned.
+            QMetaObject::invokeMethod(this, &QWidget::close, Qt::QueuedConnection);
+        });
+        return;
+    }
+    Settings().set_window(saveGeometry(), saveState());
+    recovery_->clear();
+    event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+    if (!dropped_file(event->mimeData()).isEmpty()) {
+        event->acceptProposedAction();
+    }
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+    const QString path = dropped_file(event->mimeData());
+    if (!path.isEmpty()) {
+        event->acceptProposedAction();
+        files_->open(path);
+    }
+}
+
+void MainWindow::changeEvent(QEvent* event) {
+    QMainWindow::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange && actions_ != nullptr) {
+        actions_->refresh_icons();
+    }
+}
+
+} // namespace atrium::ui

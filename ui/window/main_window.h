@@ -1,0 +1,92 @@
+// The editor's window: wires document, engine, viewport, panels and actions together.
+#pragma once
+
+#include "ui/document/document.h"
+#include "ui/document/engine_link.h"
+#include "ui/document/recovery.h"
+
+#include <QMainWindow>
+
+#include <functional>
+#include <memory>
+
+class QLabel;
+class QMenu;
+class QProgressBar;
+class QStackedWidget;
+class QToolButton;
+
+namespace atrium::ui {
+
+class Actions;
+class EditController;
+class FileController;
+class ImportBar;
+class PropertiesPanel;
+class SceneTreePanel;
+class StartPage;
+class ViewportWidget;
+enum class ActionId : std::uint8_t;
+
+/// UI thread only. Tests reach the parts by the accessors and the actions by their object names.
+class MainWindow : public QMainWindow {
+    Q_OBJECT
+public:
+    /// `recovery_directory` empty = the user's own.
+    explicit MainWindow(const QString& recovery_directory = {}, QWidget* parent = nullptr);
+    ~MainWindow() override;
+
+    [[nodiscard]] Document& document() { return document_; }
+    [[nodiscard]] EngineLink& engine() { return *engine_; }
+    [[nodiscard]] ViewportWidget& viewport() { return *viewport_; }
+    [[nodiscard]] FileController& files() { return *files_; }
+    [[nodiscard]] SceneTreePanel& tree() { return *tree_; }
+    [[nodiscard]] Recovery& recovery() { return *recovery_; }
+    [[nodiscard]] QAction* action(ActionId id) const;
+
+protected:
+    void closeEvent(QCloseEvent* event) override;
+    void dragEnterEvent(QDragEnterEvent* event) override;
+    void dropEvent(QDropEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    void make_docks();
+    void make_menus();
+    void make_tool_bar();
+    void make_status_bar();
+    void connect_files();
+    void connect_edit();
+    void connect_view();
+    void connect_documents();
+    void update_title();
+    void update_actions();
+    void update_page();
+    void update_recent();
+    void export_picture();
+    void say(const QString& text);
+    void on(ActionId id, std::function<void()> slot);
+
+    Document document_;
+    std::unique_ptr<Recovery> recovery_;
+    EngineLink* engine_ = nullptr;
+    Actions* actions_ = nullptr;
+    FileController* files_ = nullptr;
+    EditController* edit_ = nullptr;
+    ViewportWidget* viewport_ = nullptr;
+    StartPage* start_ = nullptr;
+    ImportBar* import_bar_ = nullptr;
+    QStackedWidget* pages_ = nullptr;
+    SceneTreePanel* tree_ = nullptr;
+    PropertiesPanel* properties_ = nullptr;
+    QMenu* recent_menu_ = nullptr;
+    QMenu* docks_menu_ = nullptr;
+    QLabel* busy_text_ = nullptr;
+    QProgressBar* busy_bar_ = nullptr;
+    QToolButton* busy_cancel_ = nullptr;
+    QToolButton* problems_badge_ = nullptr;
+    bool started_ = false; ///< something was opened or made: the start page stays away
+    bool closing_ = false;
+};
+
+} // namespace atrium::ui

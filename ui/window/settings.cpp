@@ -1,0 +1,52 @@
+#include "ui/window/settings.h"
+
+#include <QDir>
+#include <QFileInfo>
+#include <QSettings>
+#include <QStandardPaths>
+
+namespace atrium::ui {
+
+namespace {
+constexpr int kMaxRecent = 10;
+const QString kGeometry = QStringLiteral("window/geometry");
+const QString kLayout = QStringLiteral("window/layout1"); // the number rises when the docks change
+const QString kRecent = QStringLiteral("files/recent");
+const QString kFolder = QStringLiteral("files/folder");
+} // namespace
+
+QByteArray Settings::geometry() const { return QSettings().value(kGeometry).toByteArray(); }
+QByteArray Settings::layout() const { return QSettings().value(kLayout).toByteArray(); }
+
+void Settings::set_window(const QByteArray& geometry, const QByteArray& layout) {
+    QSettings settings;
+    settings.setValue(kGeometry, geometry);
+    settings.setValue(kLayout, layout);
+}
+
+QStringList Settings::recent_files() const { return QSettings().value(kRecent).toStringList(); }
+
+void Settings::add_recent(const QString& path) {
+    const QFileInfo info(path);
+    QStringList files = recent_files();
+    files.removeAll(info.absoluteFilePath());
+    files.prepend(info.absoluteFilePath());
+    QSettings().setValue(kRecent, QStringList(files.mid(0, kMaxRecent)));
+    set_last_folder(info.absolutePath());
+}
+
+void Settings::remove_recent(const QString& path) {
+    QStringList files = recent_files();
+    files.removeAll(path);
+    QSettings().setValue(kRecent, files);
+}
+
+QString Settings::last_folder() const {
+    const QString folder = QSettings().value(kFolder).toString();
+    return !folder.isEmpty() && QDir(folder).exists() ? folder
+                                                      : QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+}
+
+void Settings::set_last_folder(const QString& folder) { QSettings().setValue(kFolder, folder); }
+
+} // namespace atrium::ui

@@ -1,0 +1,23 @@
+// What the editor remembers between runs: window layout and recent files. Nothing of the document.
+#pragma once
+
+#include <QByteArray>
+#include <QString>
+#include <QStringList>
+
+namespace atrium::ui {
+
+/// Thin face of QSettings. UI thread only.
+class Settings {
+public:
+    [[nodiscard]] QByteArray geometry() const;
+    [[nodiscard]] QByteArray layout() const; ///< QMainWindow::saveState of this version's docks
+    void set_window(const QByteArray& geometry, const QByteArray& layout);
+    [[nodiscard]] QStringList recent_files() const; ///< absolute paths, newest first, at most ten
+    void add_recent(const QString& path);
+    void remove_recent(const QString& path);
+    [[nodiscard]] QString last_folder() const;
+    void set_last_folder(const QString& folder);
+};
+
+} // namespace atrium::ui
