@@ -160,7 +160,7 @@ class Solve(CliTest):
         rows = self.rows(self.read("c.csv"))
         self.assertEqual(list(rows[0]), ["seconds", "final", "elements", "links", "error_estimate", "rel_rmse"])
         self.assertEqual(rows[-1]["final"], 1)
-        self.assertEqual(rows[-1]["rel_rmse"], 0)  # the same solve as the reference: same seed, same bits
+        self.assertLess(rows[-1]["rel_rmse"], 1e-6)  # the same solve as the reference; the file has the digits of a float
         self.refused("solve", self.room, "--curve", self.path("c.csv"), "--reference", points, says=["column E"])
 
 
@@ -393,7 +393,7 @@ class SunlitRoom(CliTest):
         facts = json.loads(self.run_cli("info", ROOM, "--json").stdout)
         self.assertEqual([p for p in facts["problems"] if p["severity"] != "note"], [])
         self.assertEqual(facts["camera_names"], ["From the door", "From the bookshelf"])
-        for name in ("sun", "sky", "textures", "refraction", "specular_view"):
+        for name in ("sun", "sky", "textures", "transmittance", "specular_view"):
             self.assertTrue(facts["features"][name]["used"], name)
         with open(os.path.join(os.path.dirname(ROOM), "README.md"), encoding="utf-8") as f:
             text = f.read()
