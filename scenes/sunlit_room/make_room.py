@@ -721,7 +721,7 @@ def bookshelf(f, parent):
     jar.lathe([(0.0, 0.0), (0.045, 0.0), (0.045, 0.0), (0.07, 0.05), (0.075, 0.10), (0.06, 0.15), (0.035, 0.175), (0.035, 0.20),
                (0.035, 0.20), (0.0, 0.20)], 24)
     f.node("Jar", node, (0.30, levels[0] + t / 2, 0.0), mesh=f.mesh("Jar", jar))
-    basket = Part("Curtain linen")
+    basket = Part("Cushion linen")
     basket.cushion((0, 0.12, 0), (0.42, 0.24, 0.24), 0.03, 1)
     f.node("Basket", node, (-0.44, levels[0] + t / 2, 0.0), mesh=f.mesh("Basket", basket))
 
