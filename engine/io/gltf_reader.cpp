@@ -34,6 +34,8 @@ std::string asset_text(const Json& root) {
     Json asset = root["asset"];
     asset.erase("version");
     asset.erase("minVersion");
+    // Extensions of the asset point into root extensions that are not kept.
+    asset.erase("extensions");
     if (const Json* generator = find(asset, "generator");
         generator != nullptr && generator->is_string() && generator->get<std::string>().starts_with("Atrium ")) {
         asset.erase("generator");

@@ -66,6 +66,9 @@ Result<Image> decode_image(std::span<const std::uint8_t> bytes, const std::strin
         OIIO::Filesystem::IOMemReader source(bytes.data(), bytes.size());
         OIIO::ImageSpec wish;
         wish.attribute("oiio:UnassociatedAlpha", 1);
+        // Both ways of naming the source: the PNG and JPEG readers of OpenImageIO 2.4 look into the configuration only.
+        OIIO::Filesystem::IOProxy* proxy = &source;
+        wish.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
         const auto in = OIIO::ImageInput::open(file_name, &wish, &source);
         if (!in) {
             return fail(name, "", "the image cannot be decoded: " + OIIO::geterror(), "Use PNG, JPEG, HDR or EXR.");

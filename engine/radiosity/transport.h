@@ -10,7 +10,7 @@
 
 namespace atrium {
 
-/// Transport between leaves: E = s * push(gather(pull(B))). Built once per set of links; apply() is deterministic for any
+/// Transport between leaves: E = s * push(gather(pull(s * B))). Built once per set of links; apply() is deterministic for any
 /// number of threads (every element sums its own links in link order).
 class Transport {
 public:
@@ -21,8 +21,9 @@ public:
     void apply(const std::vector<Rgb>& radiosity, std::vector<Rgb>& irradiance);
     /// Sum of form factors of every leaf: what apply() gives for B = 1.
     [[nodiscard]] const std::vector<float>& row_sums() const { return row_sums_; }
-    /// Closure: a leaf whose row sum exceeds 1 is scaled to 1; where `enclosed` says that no light can leave without
-    /// meeting a linked surface, a smaller sum is scaled up to 1 as well. Energy never grows.
+    /// Closure by symmetric scaling, B' = s T s (Sinkhorn): leaves that are `enclosed` (no light can leave without meeting a
+    /// linked surface) get a row sum of 1, others at most 1. Both directions of a link are scaled alike, so what one
+    /// side sends is what the other receives; energy never grows.
     void close_rows(const std::vector<std::uint8_t>& enclosed);
     [[nodiscard]] std::size_t memory_bytes() const;
 
@@ -32,11 +33,14 @@ private:
         float weight;
         bool patches; ///< both ends are patches: weight = A F
     };
+    void update_row_sums();
+
     Hierarchy& hierarchy_;
     std::vector<std::uint32_t> leaves_;
     std::vector<std::uint32_t> first_entry_; ///< per element, into entries_
     std::vector<Entry> entries_;
-    std::vector<float> scale_;    ///< per leaf
+    std::vector<float> scale_;    ///< per leaf, on what it sends and on what it receives
+    std::vector<float> guard_;    ///< per leaf, on what it receives: the little that symmetric scaling left over
     std::vector<float> row_sums_; ///< per leaf, after scaling
     std::vector<Rgb> gathered_;   ///< per element: irradiance of patches
 };

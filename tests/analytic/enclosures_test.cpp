@@ -20,13 +20,15 @@ TEST_P(Furnace, RadiosityIsEmissionOverOneMinusReflectance) {
     EXPECT_TRUE(s.solution->statistics.converged);
     const double expected = 1.0 / (1.0 - double(rho));
     std::size_t vertices = 0;
+    double worst = 0.0;
     for (const auto& layer : s.solution->surfaces) {
         for (const Rgb& e : layer->irradiance_front) {
-            EXPECT_NEAR(luminance(e) / expected, 1.0, 0.03);
+            worst = std::max(worst, std::abs(luminance(e) / expected - 1.0));
             ++vertices;
         }
     }
     EXPECT_GT(vertices, 100U);
+    EXPECT_LT(worst, 0.03);
     EXPECT_NEAR(mean_irradiance(scene, *s.solution) / expected, 1.0, 0.01);
     EXPECT_NEAR(s.solution->statistics.energy.defect, 0.0, 0.01);
     std::printf("furnace rho %.3f: mean E / B = %.5f, %d sweeps\n", double(rho),
