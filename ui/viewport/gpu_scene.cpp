@@ -63,9 +63,8 @@ dmat4 relative_to_eye(const ViewItem& item, const dvec3& eye) {
 
 bool GpuScene::initialize(Gl& gl) {
     gl_ = &gl;
-    surface_ = load_program("surface.vert", "surface.frag");
     mask_ = load_program("mask.vert", "mask.frag");
-    if (!surface_ || !mask_) {
+    if (!mask_ || !compile(0) || !compile(Headlight)) {
         return false;
     }
     const std::array<std::uint8_t, 4> pixel{255, 255, 255, 255};
@@ -93,21 +92,70 @@ void GpuScene::release() {
     arrays_.clear();
     geometries_.clear();
     lightings_.clear();
-    locations_.clear();
     textures_.release(*gl_);
     gl_->glDeleteTextures(1, &white_);
     gl_->glDeleteTextures(1, &probe_);
     white_ = probe_ = 0;
     probe_ready_ = false;
-    surface_.reset();
+    surface_ = {};
     mask_.reset();
     gl_ = nullptr;
 }
 
-int GpuScene::at(const char* name) {
-    const auto found = locations_.find(name);
-    return found != locations_.end() ? found->second
-                                     : locations_.emplace(name, surface_->uniformLocation(name)).first->second;
+int GpuScene::Program::at(const char* name) {
+    const auto found = locations.find(name);
+    return found != locations.end() ? found->second
+                                    : locations.emplace(name, program->uniformLocation(name)).first->second;
+}
+
+unsigned GpuScene::variant_of(const ViewItem& item) {
+    const Material& m = *item.material;
+    unsigned out = 0;
+    if (m.base_color_texture || m.emissive_texture || m.alpha_mode == Material::Alpha::Mask) {
+        out |= Textured;
+    }
+    const bool lit = item.layer && item.layer->irradiance_front.size() >= item.mesh->positions.size();
+    if (is_glass(m) || (is_metal(m) && lit)) {
+        out |= Specular;
+    }
+    if (!lit) {
+        out |= Headlight;
+    }
+    return out;
+}
+
+bool GpuScene::compile(unsigned variant) {
+    if (!surface_[variant].program) {
+        QByteArray defines;
+        defines += (variant & Textured) != 0 ? "#define TEXTURED\n" : "";
+        defines += (variant & Specular) != 0 ? "#define SPECULAR\n" : "";
+        defines += (variant & Headlight) != 0 ? "#define HEADLIGHT\n" : "";
+        surface_[variant].program = load_program("surface.vert", "surface.frag", defines);
+    }
+    return surface_[variant].program != nullptr;
+}
+
+void GpuScene::begin(unsigned variant, const DrawView& from) {
+    Gl& gl = *gl_;
+    Program& p = surface_[variant];
+    p.program->bind();
+    const bool probe = probe_ready_ && from.use_probe;
+    gl.glUniform1i(p.at("u_base_texture"), 0);
+    gl.glUniform1i(p.at("u_emissive_texture"), 1);
+    gl.glUniform1i(p.at("u_probe"), 2);
+    gl.glUniform1f(p.at("u_exposure"), from.exposure);
+    gl.glUniform1i(p.at("u_linear"), from.linear ? 1 : 0);
+    gl.glUniform1i(p.at("u_has_probe"), probe ? 1 : 0);
+    gl.glUniform1f(p.at("u_probe_levels"), float(probe_levels_));
+    const auto relative = [&](const char* name, const dvec3& point) {
+        const vec3 r(point - from.eye);
+        gl.glUniform3f(p.at(name), r.x, r.y, r.z);
+    };
+    relative("u_probe_centre", probe_centre_);
+    relative("u_room_min", room_.min);
+    relative("u_room_max", room_.max);
+    gl.glActiveTexture(GL_TEXTURE2);
+    gl.glBindTexture(GL_TEXTURE_CUBE_MAP, probe ? probe_ : 0);
 }
 
 void GpuScene::collect(const ViewScene& view, const Scene& scene) {
@@ -244,7 +292,10 @@ void GpuScene::set_sides(const ViewItem& item) {
     }
 }
 
-void GpuScene::draw_surface(const ViewItem& item, const Scene& scene, const DrawView& from, const mat4& mvp) {
+void GpuScene::draw_surface(const ViewItem& item, unsigned variant, const Scene& scene, const DrawView& from,
+                            const mat4& mvp) {
+    Program& p = surface_[variant];
+    const auto at = [&p](const char* name) { return p.at(name); };
     const Material& m = *item.material;
     const Geometry& geometry = geometry_of(item);
     const Lighting* lighting = lighting_of(item);
@@ -273,9 +324,10 @@ void GpuScene::draw_surface(const ViewItem& item, const Scene& scene, const Draw
             gl.glUniform3f(at(row1), u.y, v.y, zero.y);
         }
     };
-    texture(m.base_color_texture, 0, "u_base_textured", "u_base_set", "u_base_row0", "u_base_row1");
-    texture(m.emissive_texture, 1, "u_emissive_textured", "u_emissive_set", "u_emissive_row0", "u_emissive_row1");
-    gl.glUniform1i(at("u_lit"), lighting != nullptr ? 1 : 0);
+    if ((variant & Textured) != 0) {
+        texture(m.base_color_texture, 0, "u_base_textured", "u_base_set", "u_base_row0", "u_base_row1");
+        texture(m.emissive_texture, 1, "u_emissive_textured", "u_emissive_set", "u_emissive_row0", "u_emissive_row1");
+    }
     gl.glUniform1i(at("u_has_back"), lighting != nullptr && lighting->has_back ? 1 : 0);
     gl.glUniform1i(at("u_unlit_material"), m.unlit ? 1 : 0);
     gl.glUniform1i(at("u_alpha_mode"), int(m.alpha_mode));
@@ -291,67 +343,59 @@ void GpuScene::draw_surface(const ViewItem& item, const Scene& scene, const Draw
 
 int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& from) {
     Gl& gl = *gl_;
-    surface_->bind();
-    const bool probe = probe_ready_ && from.use_probe;
-    gl.glUniform1i(at("u_base_texture"), 0);
-    gl.glUniform1i(at("u_emissive_texture"), 1);
-    gl.glUniform1i(at("u_probe"), 2);
-    gl.glUniform1f(at("u_exposure"), from.exposure);
-    gl.glUniform1i(at("u_linear"), from.linear ? 1 : 0);
-    gl.glUniform1i(at("u_has_probe"), probe ? 1 : 0);
-    gl.glUniform1f(at("u_probe_levels"), float(probe_levels_));
-    const auto relative = [&](const char* name, const dvec3& p) {
-        const vec3 r(p - from.eye);
-        gl.glUniform3f(at(name), r.x, r.y, r.z);
-    };
-    relative("u_probe_centre", probe_centre_);
-    relative("u_room_min", room_.min);
-    relative("u_room_max", room_.max);
-    gl.glActiveTexture(GL_TEXTURE2);
-    gl.glBindTexture(GL_TEXTURE_CUBE_MAP, probe ? probe_ : 0);
     gl.glEnable(GL_DEPTH_TEST);
     gl.glDepthMask(GL_TRUE);
     gl.glDisable(GL_BLEND);
     gl.glCullFace(GL_BACK);
 
     const dmat4 view_projection = from.projection * from.rotation;
-    struct Blended {
-        double distance;
+    struct Visible {
         const ViewItem* item;
+        unsigned variant;
+        double distance;
         mat4 mvp;
     };
-    std::vector<Blended> blended;
-    int drawn = 0;
+    std::vector<Visible> opaque;
+    std::vector<Visible> blended;
     for (const ViewItem& item : view.items()) {
         const mat4 mvp(view_projection * relative_to_eye(item, from.eye));
-        if (out_of_sight(item.bvh->bounds(), mvp)) {
+        const unsigned variant = variant_of(item);
+        if (out_of_sight(item.bvh->bounds(), mvp) || !compile(variant)) {
             continue;
         }
-        ++drawn;
-        if (is_blended(*item.material)) {
-            const dvec3 centre(item.world * dvec4(dvec3(item.bvh->bounds().centre()), 1.0));
-            blended.push_back({glm::length(centre - from.eye), &item, mvp});
-        } else {
-            draw_surface(item, scene, from, mvp);
-        }
+        const dvec3 centre(item.world * dvec4(dvec3(item.bvh->bounds().centre()), 1.0));
+        (is_blended(*item.material) ? blended : opaque).push_back({&item, variant, glm::length(centre - from.eye), mvp});
     }
+    // Few changes of program, and near things first, so that what they hide is not shaded.
+    std::stable_sort(opaque.begin(), opaque.end(), [](const Visible& a, const Visible& b) {
+        return a.variant != b.variant ? a.variant < b.variant : a.distance < b.distance;
+    });
+    std::stable_sort(blended.begin(), blended.end(),
+                     [](const Visible& a, const Visible& b) { return a.distance > b.distance; });
+    unsigned bound = kVariants;
+    const auto draw_all = [&](const std::vector<Visible>& list) {
+        for (const Visible& v : list) {
+            if (v.variant != bound) {
+                bound = v.variant;
+                begin(bound, from);
+            }
+            draw_surface(*v.item, v.variant, scene, from, v.mvp);
+        }
+    };
+    draw_all(opaque);
     if (!blended.empty()) {
-        std::stable_sort(blended.begin(), blended.end(),
-                         [](const Blended& a, const Blended& b) { return a.distance > b.distance; });
         gl.glEnable(GL_BLEND);
         gl.glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
         gl.glDepthMask(GL_FALSE);
-        for (const Blended& b : blended) {
-            draw_surface(*b.item, scene, from, b.mvp);
-        }
+        draw_all(blended);
         gl.glDepthMask(GL_TRUE);
         gl.glDisable(GL_BLEND);
     }
     gl.glFrontFace(GL_CCW);
     gl.glDisable(GL_CULL_FACE);
     gl.glBindVertexArray(0);
-    surface_->release();
-    return drawn;
+    gl.glUseProgram(0);
+    return int(opaque.size() + blended.size());
 }
 
 void GpuScene::draw_mask(const ViewScene& view, const DrawView& from, const vec4& color,

@@ -5,6 +5,7 @@
 #include "ui/viewport/texture_cache.h"
 #include "ui/viewport/view_scene.h"
 
+#include <array>
 #include <functional>
 #include <map>
 #include <unordered_map>
@@ -64,14 +65,22 @@ private:
     const Geometry& geometry_of(const ViewItem& item);
     const Lighting* lighting_of(const ViewItem& item);
     void bind(const ViewItem& item, const Geometry& geometry, const Lighting* lighting);
-    void draw_surface(const ViewItem& item, const Scene& scene, const DrawView& from, const mat4& mvp);
+    void draw_surface(const ViewItem& item, unsigned variant, const Scene& scene, const DrawView& from, const mat4& mvp);
     void set_sides(const ViewItem& item);
 
     Gl* gl_ = nullptr;
-    std::unique_ptr<QOpenGLShaderProgram> surface_;
+    /// Surface shader compiled for a set of features; locations by the literal's address: no text is hashed per surface.
+    struct Program {
+        std::unique_ptr<QOpenGLShaderProgram> program;
+        std::unordered_map<const char*, int> locations;
+        int at(const char* name);
+    };
+    enum Feature : unsigned { Textured = 1, Specular = 2, Headlight = 4, kVariants = 8 };
+    std::array<Program, kVariants> surface_;
     std::unique_ptr<QOpenGLShaderProgram> mask_;
-    std::unordered_map<const char*, int> locations_; ///< by the literal's address: no hashing of text per surface
-    int at(const char* name);
+    [[nodiscard]] static unsigned variant_of(const ViewItem& item);
+    bool compile(unsigned variant);
+    void begin(unsigned variant, const DrawView& from);
     std::unordered_map<const DisplayMesh*, Geometry> geometries_;
     std::unordered_map<const SurfaceLayer*, Lighting> lightings_;
     std::map<std::pair<NodeId, std::uint32_t>, Array> arrays_;
