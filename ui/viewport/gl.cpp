@@ -16,8 +16,7 @@ std::unique_ptr<QOpenGLShaderProgram> load_program(const char* vertex, const cha
     source.insert(source.indexOf('\n') + 1, defines);
     const QString folder = QStringLiteral(":/shaders/");
     const bool good = program->addShaderFromSourceFile(QOpenGLShader::Vertex, folder + QString::fromLatin1(vertex)) &&
-                      program->addShaderFromSourceCode(QOpenGLShader::Fragment, source) &&
-                      program->link();
+                      program->addShaderFromSourceCode(QOpenGLShader::Fragment, source) && program->link();
     return good ? std::move(program) : nullptr;
 }
 

@@ -94,9 +94,10 @@ void GpuScene::release() {
     lightings_.clear();
     textures_.release(*gl_);
     gl_->glDeleteTextures(1, &white_);
-    gl_->glDeleteTextures(1, &probe_);
-    white_ = probe_ = 0;
-    probe_ready_ = false;
+    gl_->glDeleteTextures(1, &probe_.texture);
+    gl_->glDeleteTextures(1, &next_probe_.texture);
+    white_ = 0;
+    probe_ = next_probe_ = {};
     surface_ = {};
     mask_.reset();
     gl_ = nullptr;
@@ -104,8 +105,7 @@ void GpuScene::release() {
 
 int GpuScene::Program::at(const char* name) {
     const auto found = locations.find(name);
-    return found != locations.end() ? found->second
-                                    : locations.emplace(name, program->uniformLocation(name)).first->second;
+    return found != locations.end() ? found->second : locations.emplace(name, program->uniformLocation(name)).first->second;
 }
 
 unsigned GpuScene::variant_of(const ViewItem& item) {
@@ -139,23 +139,23 @@ void GpuScene::begin(unsigned variant, const DrawView& from) {
     Gl& gl = *gl_;
     Program& p = surface_[variant];
     p.program->bind();
-    const bool probe = probe_ready_ && from.use_probe;
+    const bool probe = probe_.texture != 0 && from.use_probe;
     gl.glUniform1i(p.at("u_base_texture"), 0);
     gl.glUniform1i(p.at("u_emissive_texture"), 1);
     gl.glUniform1i(p.at("u_probe"), 2);
     gl.glUniform1f(p.at("u_exposure"), from.exposure);
     gl.glUniform1i(p.at("u_linear"), from.linear ? 1 : 0);
     gl.glUniform1i(p.at("u_has_probe"), probe ? 1 : 0);
-    gl.glUniform1f(p.at("u_probe_levels"), float(probe_levels_));
+    gl.glUniform1f(p.at("u_probe_levels"), float(kProbeLevels));
     const auto relative = [&](const char* name, const dvec3& point) {
         const vec3 r(point - from.eye);
         gl.glUniform3f(p.at(name), r.x, r.y, r.z);
     };
-    relative("u_probe_centre", probe_centre_);
-    relative("u_room_min", room_.min);
-    relative("u_room_max", room_.max);
+    relative("u_probe_centre", probe_.centre);
+    relative("u_room_min", probe_.room.min);
+    relative("u_room_max", probe_.room.max);
     gl.glActiveTexture(GL_TEXTURE2);
-    gl.glBindTexture(GL_TEXTURE_CUBE_MAP, probe ? probe_ : 0);
+    gl.glBindTexture(GL_TEXTURE_CUBE_MAP, probe ? probe_.texture : 0);
 }
 
 void GpuScene::collect(const ViewScene& view, const Scene& scene) {
@@ -436,20 +436,19 @@ void GpuScene::draw_edges(const ViewScene& view, const DrawView& from) {
     gl_->glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
-bool GpuScene::update_probe(const ViewScene& view, const Scene& scene, const DBox3& room, float exposure) {
+bool GpuScene::begin_probe(const ViewScene& view, const DBox3& room) {
     const bool wanted = !room.empty() && std::any_of(view.items().begin(), view.items().end(), [](const ViewItem& item) {
         return is_glass(*item.material) || is_metal(*item.material);
     });
-    probe_ready_ = false;
     Gl& gl = *gl_;
     if (!wanted) {
-        gl.glDeleteTextures(1, &probe_);
-        probe_ = 0;
+        gl.glDeleteTextures(1, &probe_.texture);
+        probe_ = {};
         return false;
     }
-    if (probe_ == 0) {
-        gl.glGenTextures(1, &probe_);
-        gl.glBindTexture(GL_TEXTURE_CUBE_MAP, probe_);
+    if (next_probe_.texture == 0) {
+        gl.glGenTextures(1, &next_probe_.texture);
+        gl.glBindTexture(GL_TEXTURE_CUBE_MAP, next_probe_.texture);
         for (GLenum face = 0; face < 6; ++face) {
             gl.glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, GL_RGBA16F, kProbeSize, kProbeSize, 0, GL_RGBA,
                             GL_FLOAT, nullptr);
@@ -460,9 +459,13 @@ bool GpuScene::update_probe(const ViewScene& view, const Scene& scene, const DBo
         gl.glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
         gl.glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
     }
-    room_ = room;
-    probe_centre_ = room.centre();
-    probe_levels_ = kProbeLevels;
+    next_probe_.room = room;
+    next_probe_.centre = room.centre();
+    return true;
+}
+
+void GpuScene::draw_probe_face(const ViewScene& view, const Scene& scene, unsigned face, float exposure) {
+    Gl& gl = *gl_;
     unsigned framebuffer = 0;
     unsigned depth = 0;
     gl.glGenFramebuffers(1, &framebuffer);
@@ -471,6 +474,8 @@ bool GpuScene::update_probe(const ViewScene& view, const Scene& scene, const DBo
     gl.glBindRenderbuffer(GL_RENDERBUFFER, depth);
     gl.glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, kProbeSize, kProbeSize);
     gl.glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+    gl.glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_CUBE_MAP_POSITIVE_X + face,
+                              next_probe_.texture, 0);
     gl.glViewport(0, 0, kProbeSize, kProbeSize);
 
     // Cube map faces look along +x -x +y -y +z -z with these upward directions (OpenGL's own convention).
@@ -480,36 +485,35 @@ bool GpuScene::update_probe(const ViewScene& view, const Scene& scene, const DBo
                                                         {0, -1, 0, 0, 0, -1},
                                                         {0, 0, 1, 0, -1, 0},
                                                         {0, 0, -1, 0, -1, 0}}};
+    const auto& f = kFaces[face];
+    const dvec3 ahead(f[0], f[1], f[2]);
+    const dvec3 up(f[3], f[4], f[5]);
+    const dvec3 right = glm::cross(ahead, up);
     DrawView from;
-    from.eye = probe_centre_;
+    from.eye = next_probe_.centre;
     from.exposure = exposure;
     from.linear = true;
     from.use_probe = false;
+    from.rotation = glm::transpose(dmat4(dvec4(right, 0), dvec4(up, 0), dvec4(-ahead, 0), dvec4(0, 0, 0, 1)));
     const double near_plane = 0.02;
-    const double far_plane = std::max(2.0 * room.diagonal(), 10.0);
+    const double far_plane = std::max(2.0 * next_probe_.room.diagonal(), 10.0);
     from.projection = dmat4(0.0);
     from.projection[0][0] = from.projection[1][1] = 1.0;
     from.projection[2][2] = -(far_plane + near_plane) / (far_plane - near_plane);
     from.projection[2][3] = -1.0;
     from.projection[3][2] = -2.0 * far_plane * near_plane / (far_plane - near_plane);
     const Rgb sky = scene.environment.sky_radiance;
-    for (GLenum face = 0; face < 6; ++face) {
-        const auto& f = kFaces[face];
-        const dvec3 ahead(f[0], f[1], f[2]);
-        const dvec3 up(f[3], f[4], f[5]);
-        const dvec3 right = glm::cross(ahead, up);
-        from.rotation = glm::transpose(dmat4(dvec4(right, 0), dvec4(up, 0), dvec4(-ahead, 0), dvec4(0, 0, 0, 1)));
-        gl.glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, probe_, 0);
-        gl.glClearColor(sky.r, sky.g, sky.b, 1.0F);
-        gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        draw(view, scene, from);
-    }
+    gl.glClearColor(sky.r, sky.g, sky.b, 1.0F);
+    gl.glDepthMask(GL_TRUE);
+    gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    draw(view, scene, from);
     gl.glDeleteFramebuffers(1, &framebuffer);
     gl.glDeleteRenderbuffers(1, &depth);
-    gl.glBindTexture(GL_TEXTURE_CUBE_MAP, probe_);
-    gl.glGenerateMipmap(GL_TEXTURE_CUBE_MAP);
-    probe_ready_ = true;
-    return true;
+    if (face == 5) {
+        gl.glBindTexture(GL_TEXTURE_CUBE_MAP, next_probe_.texture);
+        gl.glGenerateMipmap(GL_TEXTURE_CUBE_MAP);
+        std::swap(probe_, next_probe_);
+    }
 }
 
 } // namespace atrium::ui

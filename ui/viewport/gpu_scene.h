@@ -39,9 +39,12 @@ public:
     /// Edges of the display meshes.
     void draw_edges(const ViewScene& view, const DrawView& from);
 
-    /// Renders the reflection probe if the scene shows specular materials: a small cube map of the lit surfaces at the
-    /// room's centre. Returns whether there is one.
-    bool update_probe(const ViewScene& view, const Scene& scene, const DBox3& room, float exposure);
+    /// The reflection probe is a small cube map of the lit surfaces, seen from the room's centre. It is drawn a face at a
+    /// time, so that a slow rasteriser does not stand still; the last complete one is used meanwhile.
+    /// False, and no probe any more, when the scene shows nothing specular.
+    bool begin_probe(const ViewScene& view, const DBox3& room);
+    /// Draws face 0 to 5; after the last one the new probe is in use.
+    void draw_probe_face(const ViewScene& view, const Scene& scene, unsigned face, float exposure);
 
 private:
     struct Geometry {
@@ -87,11 +90,13 @@ private:
     TextureCache textures_;
     unsigned white_ = 0;
 
-    unsigned probe_ = 0;
-    bool probe_ready_ = false;
-    int probe_levels_ = 0;
-    dvec3 probe_centre_{0.0};
-    DBox3 room_;
+    struct Probe {
+        unsigned texture = 0;
+        dvec3 centre{0.0};
+        DBox3 room;
+    };
+    Probe probe_;      ///< complete, in use; texture 0 = none
+    Probe next_probe_; ///< being drawn
 };
 
 } // namespace atrium::ui
