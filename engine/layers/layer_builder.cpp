@@ -108,7 +108,15 @@ private:
         const RaySurface& surface = rays_.surfaces()[s];
         const MeshData& data = *surface.mesh;
         const bool back = surface.back_side && back_lit_(s);
-        std::unordered_map<std::uint32_t, std::uint32_t> copied;
+        // Flat-shaded files: triangles of one plane share their vertices all the same, so each is lit once.
+        std::map<std::array<std::int32_t, 4>, std::uint32_t> copied;
+        const auto copy_key = [&](std::uint32_t v, const vec3& face_normal) -> std::array<std::int32_t, 4> {
+            if (!data.normals.empty()) {
+                return {std::int32_t(v), 0, 0, 0};
+            }
+            const vec3 q = glm::round(face_normal * 2000.0F);
+            return {std::int32_t(v), std::int32_t(q.x), std::int32_t(q.y), std::int32_t(q.z)};
+        };
         for (const uvec3& t : surface.triangles) {
             const auto& p = *surface.positions;
             const vec3 face_normal = glm::normalize(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]));
@@ -116,11 +124,10 @@ private:
             out.surface = s;
             for (int k = 0; k < 3; ++k) {
                 const std::uint32_t v = t[k];
-                if (!data.normals.empty()) {
-                    if (const auto it = copied.find(v); it != copied.end()) {
-                        out.v[std::size_t(k)] = it->second;
-                        continue;
-                    }
+                const auto key_of_copy = copy_key(v, face_normal);
+                if (const auto it = copied.find(key_of_copy); it != copied.end()) {
+                    out.v[std::size_t(k)] = it->second;
+                    continue;
                 }
                 Vertex vertex;
                 vertex.local = data.positions[v];
@@ -147,7 +154,7 @@ private:
                 vertex.weld = weld.try_emplace({key.x, key.y, key.z}, std::uint32_t(weld.size())).first->second;
                 out.v[std::size_t(k)] = std::uint32_t(mesh.vertices.size());
                 mesh.vertices.push_back(vertex);
-                copied[v] = out.v[std::size_t(k)];
+                copied[key_of_copy] = out.v[std::size_t(k)];
             }
             add_triangle(mesh, out);
         }
@@ -500,6 +507,49 @@ private:
         return complete;
     }
 
+    // Averages each vertex with its neighbours as far as the samples' own noise explains their difference: differences that
+    // are larger than noise stay. Covered vertices have been filled before.
+    static void smooth_noise(NodeMesh& mesh, DirectSample Vertex::*sample) {
+        constexpr int kRounds = 3;
+        std::vector<Rgb> sum(mesh.vertices.size());
+        std::vector<float> weight(mesh.vertices.size());
+        std::vector<float> variance(mesh.vertices.size());
+        for (int round = 0; round < kRounds; ++round) {
+            for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+                sum[v] = (mesh.vertices[v].*sample).irradiance;
+                weight[v] = 1.0F;
+                variance[v] = (mesh.vertices[v].*sample).variance;
+            }
+            for (const Triangle& t : mesh.triangles) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::uint32_t a = t.v[k], b = t.v[(k + 1) % 3];
+                    const DirectSample& x = mesh.vertices[a].*sample;
+                    const DirectSample& y = mesh.vertices[b].*sample;
+                    const float noise = x.variance + y.variance;
+                    const float d = luminance(x.irradiance) - luminance(y.irradiance);
+                    if (!(noise > 0.0F) || d * d > 9.0F * noise) {
+                        continue;
+                    }
+                    // Inner edges are met twice, border edges once: half weights from each triangle.
+                    const float w = 0.5F * std::exp(-d * d / (2.0F * noise));
+                    // The noisier end learns more from the other.
+                    const float to_a = w * 2.0F * x.variance / noise, to_b = w * 2.0F * y.variance / noise;
+                    sum[a] += to_a * y.irradiance;
+                    sum[b] += to_b * x.irradiance;
+                    weight[a] += to_a;
+                    weight[b] += to_b;
+                    variance[a] += to_a * to_a * y.variance;
+                    variance[b] += to_b * to_b * x.variance;
+                }
+            }
+            for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+                DirectSample& s = mesh.vertices[v].*sample;
+                s.irradiance = sum[v] / weight[v];
+                s.variance = variance[v] / (weight[v] * weight[v]);
+            }
+        }
+    }
+
     LayerSet finish() {
         LayerSet out;
         double error = 0.0, area_sum = 0.0, log_sum = 0.0, log_area = 0.0;
@@ -507,6 +557,8 @@ private:
         for (NodeMesh& mesh : meshes_) {
             fill_covered(mesh, &Vertex::front_covered, &Vertex::front);
             fill_covered(mesh, &Vertex::back_covered, &Vertex::back);
+            smooth_noise(mesh, &Vertex::front);
+            smooth_noise(mesh, &Vertex::back);
             std::map<std::uint32_t, std::vector<const Triangle*>> by_surface;
             for (const Triangle& t : mesh.triangles) {
                 by_surface[t.surface].push_back(&t);

@@ -65,13 +65,12 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, 
     const Rgb towards = glm::max(sh_dot(h.harmonics[e.harmonics].emission, sh_basis(-w)), Rgb(0.0F));
     const float kernel = 1.0F / (kPi * r * r);
     out.contribution = towards * (kernel * std::max(cosine, 0.0F));
-    if (!e.leaf()) {
-        const float ratio = e.radius / r;
-        // Cosine and distance vary by about `ratio` over the element, visibility by anything.
-        const float bound =
-            std::max(luminance(towards), 0.1F * e.power) * kernel * std::min(std::max(cosine, 0.0F) + ratio, 1.0F);
-        out.error = bound * ratio;
-    }
+    // Cosine and distance vary by about `ratio` over the element, visibility by anything; the harmonics themselves are off
+    // by up to a tenth of the peak, which at grazing angles is more than the light itself.
+    const float ratio = e.radius / r;
+    const float bound =
+        std::max(luminance(towards), 0.1F * e.power) * kernel * std::min(std::max(cosine, 0.0F) + ratio, 1.0F);
+    out.error = e.leaf() ? 0.1F * e.power * kernel * std::max(cosine, 0.0F) : bound * ratio;
     return out;
 }
 
@@ -147,6 +146,12 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
         cut.pop_back();
         total -= luminance(top.contribution);
         const Element& e = h_.elements[top.element];
+        if (e.kind == Kind::Faces) {
+            const CutNode exact{top.element, faces_one_by_one(h_, rays_, e, p), 0.0F};
+            total += luminance(exact.contribution);
+            done.push_back(exact);
+            continue;
+        }
         for (std::uint32_t k = 0; k < e.child_count; ++k) {
             const CutNode child = evaluate(h_, rays_, e.first_child + k, p);
             const float light = luminance(child.contribution);
