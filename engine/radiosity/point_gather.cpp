@@ -75,8 +75,22 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, 
     return out;
 }
 
-// One ray says seen or not; half-way between certain and unknown, p (1 - p) averages to about this in furnished rooms.
-constexpr float kOneRayVariance = 0.08F;
+/// Elements with a single ray each: their hits and misses together tell how uncertain one of them is.
+struct SingleRays {
+    float light2 = 0.0F; ///< sum of squared luminances
+    float clear = 0.0F;
+    float rays = 0.0F;
+
+    void add(float light, float seen) {
+        light2 += light * light;
+        clear += seen;
+        rays += 1.0F;
+    }
+    [[nodiscard]] float variance() const {
+        const float p = rays > 0.0F ? clear / rays : 0.0F;
+        return light2 * p * (1.0F - p);
+    }
+};
 
 } // namespace
 
@@ -157,6 +171,7 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
     std::sort(done.begin(), done.end(), [](const CutNode& a, const CutNode& b) { return a.element < b.element; });
     const float own_ray = 0.5F * unoccluded / float(settings.rays);
     float weak = 0.0F;
+    SingleRays single;
     for (const CutNode& node : done) {
         const float light = luminance(node.contribution);
         if (light < own_ray) {
@@ -169,15 +184,12 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
         const auto n = float(v.rays);
         if (n > 1.0F && v.clear > 0.0F && v.clear < n) {
             out.variance += light * light * (v.clear + 1.0F) * (n - v.clear + 1.0F) / ((n + 2.0F) * (n + 2.0F) * n);
-        } else if (n <= 1.0F) {
-            out.variance += light * light * kOneRayVariance;
+        } else if (n == 1.0F) {
+            single.add(light, v.clear);
         }
     }
     const auto picks = unsigned(std::ceil(weak / unoccluded * float(settings.rays)));
-    if (picks == 0) {
-        return out;
-    }
-    const float stride = weak / float(picks);
+    const float stride = weak / float(std::max(picks, 1U));
     float next = 0.5F * stride;
     float passed = 0.0F;
     for (const CutNode& node : done) {
@@ -188,9 +200,10 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
         for (passed += light; next < passed; next += stride) {
             const Visibility v = visibility(node.element, p, 1);
             out.irradiance += node.contribution * (stride / light) * v.seen;
-            out.variance += stride * stride * kOneRayVariance;
+            single.add(stride, v.clear);
         }
     }
+    out.variance += single.variance();
     return out;
 }
 
