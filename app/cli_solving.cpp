@@ -28,8 +28,8 @@ SolveOptions options_for(const Scene& scene, const SolveArguments& arguments) {
 
 /// Whether the light stored in a project answers what the command line asks for.
 bool good_enough(const Solution& stored, const SolveArguments& arguments) {
-    if (!stored.final) {
-        return false;
+    if (arguments.quality && !stored.final) {
+        return false; // it was stopped before it reached the quality that it names
     }
     const auto known = kQualities.find(stored.statistics.quality);
     if (arguments.quality && (known == kQualities.end() || kQualities.at(*arguments.quality) > known->second)) {
@@ -90,9 +90,9 @@ tl::expected<Solved, int> open_scene(const std::string& file, const SolveArgumen
         if (!stored) {
             complain(fmt::format("warning: {}: the stored light cannot be used and is solved again: {}", file,
                                  stored.error().message()));
-        } else if (good_enough(**stored, arguments)) {
+        } else {
             solved.solution = *stored;
-            solved.from_file = true;
+            solved.from_file = good_enough(**stored, arguments);
             solved.load_seconds = seconds_since_start() - before;
         }
     }
@@ -124,8 +124,13 @@ int light_up(Solved& solved, const SolveArguments& arguments, bool need_engine, 
         if (!context.should_stop()) {
             return refuse(error);
         }
-        complain(error.message());
         solved.stopped = true;
+        if (solved.solution && !need_engine) {
+            solved.from_file = true;
+            complain(fmt::format("{}: stopped before a better picture; the light is the stored one", solved.file));
+            return kDone;
+        }
+        complain(error.message());
         const int status = finish(solved, arguments);
         return status == kDone ? kStopped : status;
     }

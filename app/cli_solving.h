@@ -31,11 +31,11 @@ void add_solve_options(CLI::App& command, SolveArguments& arguments);
 struct Solved {
     std::string file;
     Scene scene;
-    std::shared_ptr<const Solution> solution;
-    GiEngine engine;         ///< holds the hierarchy only when it solved in this run (has_solution())
-    bool from_file = false;  ///< the project's own solution was good enough
-    bool stopped = false;    ///< by a signal or the time limit: exit status 2
-    double load_seconds = 0; ///< reading the file
+    std::shared_ptr<const Solution> solution; ///< after open_scene(): what the file holds, may be null
+    GiEngine engine;                          ///< holds the hierarchy only when it solved in this run (has_solution())
+    bool from_file = false;                   ///< the project's own solution was good enough
+    bool stopped = false;                     ///< by a signal or the time limit: exit status 2
+    double load_seconds = 0;                  ///< reading the file
 };
 
 /// Called with every picture worth showing and the time since the program started.
@@ -44,8 +44,8 @@ using SnapshotWatcher = std::function<void(const std::shared_ptr<const Solution>
 /// Reads a file and whatever light it holds. On failure the message has been written and the exit status is returned.
 tl::expected<Solved, int> open_scene(const std::string& file, const SolveArguments& arguments);
 /// Solves unless the project's own light is good enough for the arguments and `need_engine` is false. Returns an exit
-/// status; kDone also when the solve was stopped with a picture (`stopped`). Stopped before the first picture it is
-/// kStopped, and the statistics have been written.
+/// status; kDone also when the solve was stopped with a picture (`stopped`), be it the stored one. Stopped without any it
+/// is kStopped, and the statistics have been written.
 int light_up(Solved& solved, const SolveArguments& arguments, bool need_engine, const SnapshotWatcher& watcher = {});
 
 /// Writes `--stats` and gives the final exit status: kDone, kStopped or what went wrong.

@@ -100,7 +100,7 @@ std::string statistics_json(const Solved& solved) {
                    {"total", seconds_since_start()}};
     out["phases"] = phases;
     out["iterations"] = s.iterations;
-    out["converged"] = s.converged;
+    out["converged"] = s.converged && !solved.stopped;
     out["residual"] = s.residual;
     out["error_estimate"] = s.error_estimate;
     out["elements"] = s.elements;

@@ -172,6 +172,18 @@ class Stopping(CliTest):
         self.assertTrue(s["stopped"])
         self.assertFalse(s["converged"])
 
+    def test_stopped_solve_falls_back_on_stored_light(self):
+        project = self.path("room.atrium")
+        self.run_cli("solve", self.room, "-o", project, "--quality", "draft")
+        done = self.run_cli("render", project, "-o", self.path("a.png"), "--size", "16x16", "--quality", "fine", "--time", "0.001",
+                            status=2)
+        self.assertIn("stored", done.stderr)
+        self.assertTrue(os.path.getsize(self.path("a.png")) > 0)
+        # A virtual sensor needs the hierarchy, which no file holds: nothing is made up.
+        points = self.write("p.csv", POINTS)
+        self.run_cli("measure", project, "--points", points, "--free", "--time", "0.001", "-o", self.path("m.csv"), status=2)
+        self.assertFalse(os.path.exists(self.path("m.csv")))
+
     def test_signals(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             name = "s%d.json" % number
