@@ -385,7 +385,10 @@ private:
     static float deviation(const DirectSample& a, const DirectSample& m, const DirectSample& b, float floor) {
         const float la = luminance(a.irradiance), lm = luminance(m.irradiance), lb = luminance(b.irradiance);
         const float mean = 0.5F * (la + lb);
-        return std::max(std::abs(lm - mean), 0.2F * std::abs(la - lb)) / std::max({mean, lm, floor});
+        const float difference = std::max(std::abs(lm - mean), 0.2F * std::abs(la - lb));
+        // A difference that the samples' own noise explains is no reason to look closer: it would be noise again.
+        const float noise = std::sqrt(m.variance + 0.25F * (a.variance + b.variance));
+        return difference > 2.0F * noise ? difference / std::max({mean, lm, floor}) : 0.0F;
     }
 
     // One level: samples the midpoints of all open edges, splits those that deviate. False when nothing was split.
@@ -499,7 +502,7 @@ private:
 
     LayerSet finish() {
         LayerSet out;
-        double error = 0.0, light = 0.0, area_sum = 0.0, log_sum = 0.0, log_area = 0.0;
+        double error = 0.0, area_sum = 0.0, log_sum = 0.0, log_area = 0.0;
         out.surfaces.resize(rays_.surfaces().size());
         for (NodeMesh& mesh : meshes_) {
             fill_covered(mesh, &Vertex::front_covered, &Vertex::front);
@@ -532,11 +535,12 @@ private:
                         display->indices.push_back(it->second);
                         const double w = area / 3.0;
                         const double e = luminance(vertex.front.irradiance);
-                        error += w * vertex.front.variance;
-                        light += w * e;
+                        const double level = e + settings_.light_floor;
+                        error += w * vertex.front.variance / (level * level);
                         area_sum += w;
                         const double radiance = luminance(rho * vertex.front.irradiance) / kPiD;
-                        if (radiance > 0.0) {
+                        // Outer sides and closed cupboards are dark and not what anyone looks at.
+                        if (radiance > 0.0 && e > settings_.light_floor) {
                             log_sum += w * std::log(radiance);
                             log_area += w;
                         }
@@ -548,7 +552,7 @@ private:
             }
         }
         std::erase(out.surfaces, nullptr);
-        out.error_estimate = light > 0.0 ? std::sqrt(error * area_sum) / light : 0.0;
+        out.error_estimate = area_sum > 0.0 ? std::sqrt(error / area_sum) : 0.0;
         out.mean_radiance = log_area > 0.0 ? std::exp(log_sum / log_area) : 0.0;
         return out;
     }

@@ -1,4 +1,6 @@
 #version 330 core
+// Compiled in variants, since a software rasteriser executes every branch: TEXTURED (textures, alpha mask), SPECULAR (metal
+// and glass), HEADLIGHT (no light known yet).
 // radiance = emitted + rho * irradiance / pi, then exposure, filmic curve and sRGB as in engine/view/tone.h.
 in vec3 v_position;
 in vec3 v_normal;
@@ -14,7 +16,6 @@ uniform sampler2D u_base_texture;
 uniform sampler2D u_emissive_texture;
 uniform bool u_base_textured;
 uniform bool u_emissive_textured;
-uniform bool u_lit;
 uniform bool u_has_back;
 uniform bool u_unlit_material;
 uniform int u_alpha_mode; // 0 opaque, 1 mask, 2 blend
@@ -49,6 +50,7 @@ vec4 shown(vec3 radiance, float alpha) {
     return u_linear ? vec4(min(radiance, vec3(60000.0)), alpha) : vec4(encode(filmic(radiance * u_exposure)), alpha);
 }
 
+#ifdef SPECULAR
 // The room's walls bend the direction, so that a flat mirror shows things about where they are.
 vec3 reflected(vec3 direction, float roughness) {
     vec3 far_corner = mix(u_room_min, u_room_max, step(vec3(0.0), direction));
@@ -56,55 +58,56 @@ vec3 reflected(vec3 direction, float roughness) {
     float reach = max(min(t.x, min(t.y, t.z)), 0.0);
     return textureLod(u_probe, v_position + direction * reach - u_probe_centre, roughness * u_probe_levels).rgb;
 }
+#endif
 
 void main() {
     vec4 base = u_base * vec4(v_color, 1.0);
+    vec3 emitted = u_emitted;
+#ifdef TEXTURED
     if (u_base_textured) {
         base *= texture(u_base_texture, v_base_uv);
     }
     if (u_alpha_mode == 1 && base.a < u_alpha_cutoff) {
         discard;
     }
-    float alpha = u_alpha_mode == 2 ? base.a : 1.0;
-    vec3 emitted = u_emitted;
     if (u_emissive_textured) {
         emitted *= texture(u_emissive_texture, v_emissive_uv).rgb;
     }
+#endif
+    float alpha = u_alpha_mode == 2 ? base.a : 1.0;
+    vec3 rho = clamp(base.rgb, vec3(0.0), vec3(0.9999)); // kMaxReflectance
+    vec3 irradiance = gl_FrontFacing || !u_has_back ? v_front : v_back;
+    vec3 radiance = emitted + rho * u_diffuse_share * max(irradiance, vec3(0.0)) * kInvPi;
+
+#if defined(SPECULAR) || defined(HEADLIGHT)
     vec3 eye = normalize(-v_position);
     vec3 normal = normalize(v_normal);
     normal = gl_FrontFacing ? normal : -normal;
     float facing = clamp(dot(normal, eye), 0.0, 1.0);
-    vec3 rho = clamp(base.rgb, vec3(0.0), vec3(0.9999)); // kMaxReflectance
-
-    vec3 irradiance = gl_FrontFacing || !u_has_back ? v_front : v_back;
-    vec3 radiance = emitted + rho * u_diffuse_share * max(irradiance, vec3(0.0)) * kInvPi;
-    if (u_unlit_material) {
-        o_color = u_linear ? vec4(base.rgb / u_exposure, alpha) : vec4(encode(base.rgb), alpha);
-        return;
-    }
-
+#endif
+#ifdef HEADLIGHT
+    // A headlight on pale material, the same at any exposure.
+    vec3 pale = mix(vec3(dot(rho, vec3(0.2126, 0.7152, 0.0722))), rho, 0.4);
+    radiance = emitted + 0.25 * (0.35 + 0.65 * facing) * (0.15 + 0.85 * pale) / u_exposure;
+#endif
+#ifdef SPECULAR
     float schlick = pow(1.0 - facing, 5.0);
     if (u_kind == 2) {
         // Glass lies over what is behind it: its own part is what it reflects.
         float fresnel = u_f0 + (1.0 - u_f0) * schlick;
         vec3 mirror = u_has_probe ? reflected(reflect(-eye, normal), 0.0) : vec3(0.18 / u_exposure);
         float tint = 1.0 - min(base.r, min(base.g, base.b));
-        float cover = clamp(fresnel + 0.35 * tint + 0.04, 0.0, 1.0);
-        vec3 own = (mirror * fresnel + base.rgb * 0.35 * tint * 0.18 / u_exposure) / cover + emitted;
-        o_color = shown(own, cover);
-        return;
-    }
-    if (!u_lit) {
-        // No light known yet: a headlight on pale material, the same at any exposure.
-        vec3 pale = mix(vec3(dot(rho, vec3(0.2126, 0.7152, 0.0722))), rho, 0.4);
-        vec3 head = 0.25 * (0.35 + 0.65 * facing) * (0.15 + 0.85 * pale) / u_exposure;
-        o_color = shown(emitted + head, alpha);
-        return;
-    }
-    if (u_kind == 1 && u_has_probe) {
+        alpha = clamp(fresnel + 0.35 * tint + 0.04, 0.0, 1.0);
+        radiance = (mirror * fresnel + base.rgb * 0.35 * tint * 0.18 / u_exposure) / alpha + emitted;
+    } else if (u_has_probe) {
         vec3 fresnel = rho + (vec3(1.0) - rho) * schlick * (1.0 - u_roughness);
         vec3 mirror = emitted + fresnel * reflected(reflect(-eye, normal), sqrt(u_roughness));
         radiance = mix(mirror, radiance, smoothstep(0.35, 0.9, u_roughness));
     }
-    o_color = shown(radiance, alpha);
+#endif
+    if (u_unlit_material) {
+        o_color = u_linear ? vec4(base.rgb / u_exposure, alpha) : vec4(encode(base.rgb), alpha);
+    } else {
+        o_color = shown(radiance, alpha);
+    }
 }

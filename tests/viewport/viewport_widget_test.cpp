@@ -212,6 +212,35 @@ TEST_F(Viewport, MovedHiddenAndDeletedNodesAnswerAtOnce) {
     expect_color(grab().pixel(top), floor, "deleted");
 }
 
+TEST_F(Viewport, MirrorsShowTheRoomAndFollowIt) {
+    Scene scene = small_room(nullptr);
+    Material material;
+    material.base_color = Rgb(0.95F);
+    material.metallic = 1.0F;
+    material.roughness = 0.0F;
+    Node node;
+    node.name = "Mirror";
+    node.shape = scene.shapes.insert({"Mirror", Polygon{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}, {}}, {}});
+    node.materials = {scene.materials.insert(material)};
+    node.transform.translation = dvec3(0.0, 1.5, -2.45);
+    scene.roots.push_back(scene.nodes.insert(node));
+    // From here the mirror's middle shows the red wall on the left at z = 2.2.
+    open(scene, lit(scene), {1.5, 1.5, 1.0}, {0.0, 1.5, -2.45});
+    QTest::qWait(1500);
+    const QRgb red = grab().pixel(QPoint(320, 240));
+    EXPECT_GT(qRed(red), 2 * qGreen(red));
+    Material green;
+    green.base_color = Rgb(0.1F, 0.7F, 0.1F);
+    const Scene& now = document_->scene();
+    const NodeId left =
+        *std::find_if(now.roots.begin(), now.roots.end(), [&](NodeId id) { return now.nodes.find(id)->name == "Left"; });
+    ASSERT_TRUE(
+        document_->apply({SetResource<Material>{now.nodes.find(left)->materials[0], green}}, QStringLiteral("Paint")));
+    QTest::qWait(1500);
+    const QRgb repainted = grab().pixel(QPoint(320, 240));
+    EXPECT_GT(qGreen(repainted), 2 * qRed(repainted));
+}
+
 TEST_F(Viewport, ClickSelectsTogglesAndClears) {
     NodeId box;
     const Scene scene = small_room(&box);

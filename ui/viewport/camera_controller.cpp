@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kMaxPitch = 89.0 * kPiD / 180.0;
 
-/// Share of the smaller picture side that a framed box fills.
+/// Share of the picture that a framed box fills in its tighter direction.
 constexpr double kFrameFill = 0.85;
 
 double median(std::vector<double>& values) {
@@ -171,10 +171,17 @@ void CameraController::frame(const DBox3& box) {
         return;
     }
     const dvec3 centre = box.centre();
-    const double radius = std::max(0.5 * box.diagonal(), 0.02);
-    const double half_y = 0.5 * yfov_ * kFrameFill;
-    const double half_x = std::atan(std::tan(0.5 * yfov_) * width_ / height_) * kFrameFill;
-    const double distance = radius / std::sin(std::min(half_x, half_y));
+    const double tan_y = std::tan(0.5 * yfov_) * kFrameFill;
+    const double tan_x = tan_y * width_ / height_;
+    double distance = 0.05;
+    for (int i = 0; i < 8; ++i) {
+        const dvec3 corner((i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
+                           (i & 4) != 0 ? box.max.z : box.min.z);
+        const dvec3 d = corner - centre;
+        const double nearer = -glm::dot(d, forward());
+        distance = std::max(
+            {distance, nearer + std::abs(glm::dot(d, right())) / tan_x, nearer + std::abs(glm::dot(d, up())) / tan_y});
+    }
     eye_ = centre - forward() * distance;
     focus_distance_ = distance;
 }

@@ -1,5 +1,6 @@
 #include "ui/viewport/gl.h"
 
+#include <QFile>
 #include <QString>
 
 // The linker drops a static library's resources unless somebody asks for them; the macro must stand in no namespace.
@@ -7,13 +8,15 @@ static void keep_resources() { Q_INIT_RESOURCE(atrium); }
 
 namespace atrium::ui {
 
-std::unique_ptr<QOpenGLShaderProgram> load_program(const char* vertex, const char* fragment) {
+std::unique_ptr<QOpenGLShaderProgram> load_program(const char* vertex, const char* fragment, const QByteArray& defines) {
     keep_resources();
     auto program = std::make_unique<QOpenGLShaderProgram>();
+    QFile file(QStringLiteral(":/shaders/") + QString::fromLatin1(fragment));
+    QByteArray source = file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+    source.insert(source.indexOf('\n') + 1, defines);
     const QString folder = QStringLiteral(":/shaders/");
     const bool good = program->addShaderFromSourceFile(QOpenGLShader::Vertex, folder + QString::fromLatin1(vertex)) &&
-                      program->addShaderFromSourceFile(QOpenGLShader::Fragment, folder + QString::fromLatin1(fragment)) &&
-                      program->link();
+                      program->addShaderFromSourceCode(QOpenGLShader::Fragment, source) && program->link();
     return good ? std::move(program) : nullptr;
 }
 

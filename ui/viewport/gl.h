@@ -1,6 +1,7 @@
 // OpenGL 3.3 core functions and small owners of GL objects.
 #pragma once
 
+#include <QByteArray>
 #include <QOpenGLFunctions_3_3_Core>
 #include <QOpenGLShaderProgram>
 
@@ -10,8 +11,9 @@ namespace atrium::ui {
 
 using Gl = QOpenGLFunctions_3_3_Core;
 
-/// Program from ":/shaders/<vertex>" and ":/shaders/<fragment>"; null (with Qt's log printed) when it does not link.
-std::unique_ptr<QOpenGLShaderProgram> load_program(const char* vertex, const char* fragment);
+/// Program from ":/shaders/<vertex>" and ":/shaders/<fragment>", with `defines` (whole lines) put below the fragment
+/// shader's #version; null (with Qt's log printed) when it does not link.
+std::unique_ptr<QOpenGLShaderProgram> load_program(const char* vertex, const char* fragment, const QByteArray& defines = {});
 
 /// Off-screen picture with depth and stencil. All functions need the context current.
 class GlTarget {

@@ -63,9 +63,8 @@ dmat4 relative_to_eye(const ViewItem& item, const dvec3& eye) {
 
 bool GpuScene::initialize(Gl& gl) {
     gl_ = &gl;
-    surface_ = load_program("surface.vert", "surface.frag");
     mask_ = load_program("mask.vert", "mask.frag");
-    if (!surface_ || !mask_) {
+    if (!mask_ || !compile(0) || !compile(Headlight)) {
         return false;
     }
     const std::array<std::uint8_t, 4> pixel{255, 255, 255, 255};
@@ -93,21 +92,70 @@ void GpuScene::release() {
     arrays_.clear();
     geometries_.clear();
     lightings_.clear();
-    locations_.clear();
     textures_.release(*gl_);
     gl_->glDeleteTextures(1, &white_);
-    gl_->glDeleteTextures(1, &probe_);
-    white_ = probe_ = 0;
-    probe_ready_ = false;
-    surface_.reset();
+    gl_->glDeleteTextures(1, &probe_.texture);
+    gl_->glDeleteTextures(1, &next_probe_.texture);
+    white_ = 0;
+    probe_ = next_probe_ = {};
+    surface_ = {};
     mask_.reset();
     gl_ = nullptr;
 }
 
-int GpuScene::at(const char* name) {
-    const auto found = locations_.find(name);
-    return found != locations_.end() ? found->second
-                                     : locations_.emplace(name, surface_->uniformLocation(name)).first->second;
+int GpuScene::Program::at(const char* name) {
+    const auto found = locations.find(name);
+    return found != locations.end() ? found->second : locations.emplace(name, program->uniformLocation(name)).first->second;
+}
+
+unsigned GpuScene::variant_of(const ViewItem& item) {
+    const Material& m = *item.material;
+    unsigned out = 0;
+    if (m.base_color_texture || m.emissive_texture || m.alpha_mode == Material::Alpha::Mask) {
+        out |= Textured;
+    }
+    const bool lit = item.layer && item.layer->irradiance_front.size() >= item.mesh->positions.size();
+    if (is_glass(m) || (is_metal(m) && lit)) {
+        out |= Specular;
+    }
+    if (!lit) {
+        out |= Headlight;
+    }
+    return out;
+}
+
+bool GpuScene::compile(unsigned variant) {
+    if (!surface_[variant].program) {
+        QByteArray defines;
+        defines += (variant & Textured) != 0 ? "#define TEXTURED\n" : "";
+        defines += (variant & Specular) != 0 ? "#define SPECULAR\n" : "";
+        defines += (variant & Headlight) != 0 ? "#define HEADLIGHT\n" : "";
+        surface_[variant].program = load_program("surface.vert", "surface.frag", defines);
+    }
+    return surface_[variant].program != nullptr;
+}
+
+void GpuScene::begin(unsigned variant, const DrawView& from) {
+    Gl& gl = *gl_;
+    Program& p = surface_[variant];
+    p.program->bind();
+    const bool probe = probe_.texture != 0 && from.use_probe;
+    gl.glUniform1i(p.at("u_base_texture"), 0);
+    gl.glUniform1i(p.at("u_emissive_texture"), 1);
+    gl.glUniform1i(p.at("u_probe"), 2);
+    gl.glUniform1f(p.at("u_exposure"), from.exposure);
+    gl.glUniform1i(p.at("u_linear"), from.linear ? 1 : 0);
+    gl.glUniform1i(p.at("u_has_probe"), probe ? 1 : 0);
+    gl.glUniform1f(p.at("u_probe_levels"), float(kProbeLevels));
+    const auto relative = [&](const char* name, const dvec3& point) {
+        const vec3 r(point - from.eye);
+        gl.glUniform3f(p.at(name), r.x, r.y, r.z);
+    };
+    relative("u_probe_centre", probe_.centre);
+    relative("u_room_min", probe_.room.min);
+    relative("u_room_max", probe_.room.max);
+    gl.glActiveTexture(GL_TEXTURE2);
+    gl.glBindTexture(GL_TEXTURE_CUBE_MAP, probe ? probe_.texture : 0);
 }
 
 void GpuScene::collect(const ViewScene& view, const Scene& scene) {
@@ -244,7 +292,10 @@ void GpuScene::set_sides(const ViewItem& item) {
     }
 }
 
-void GpuScene::draw_surface(const ViewItem& item, const Scene& scene, const DrawView& from, const mat4& mvp) {
+void GpuScene::draw_surface(const ViewItem& item, unsigned variant, const Scene& scene, const DrawView& from,
+                            const mat4& mvp) {
+    Program& p = surface_[variant];
+    const auto at = [&p](const char* name) { return p.at(name); };
     const Material& m = *item.material;
     const Geometry& geometry = geometry_of(item);
     const Lighting* lighting = lighting_of(item);
@@ -273,9 +324,10 @@ void GpuScene::draw_surface(const ViewItem& item, const Scene& scene, const Draw
             gl.glUniform3f(at(row1), u.y, v.y, zero.y);
         }
     };
-    texture(m.base_color_texture, 0, "u_base_textured", "u_base_set", "u_base_row0", "u_base_row1");
-    texture(m.emissive_texture, 1, "u_emissive_textured", "u_emissive_set", "u_emissive_row0", "u_emissive_row1");
-    gl.glUniform1i(at("u_lit"), lighting != nullptr ? 1 : 0);
+    if ((variant & Textured) != 0) {
+        texture(m.base_color_texture, 0, "u_base_textured", "u_base_set", "u_base_row0", "u_base_row1");
+        texture(m.emissive_texture, 1, "u_emissive_textured", "u_emissive_set", "u_emissive_row0", "u_emissive_row1");
+    }
     gl.glUniform1i(at("u_has_back"), lighting != nullptr && lighting->has_back ? 1 : 0);
     gl.glUniform1i(at("u_unlit_material"), m.unlit ? 1 : 0);
     gl.glUniform1i(at("u_alpha_mode"), int(m.alpha_mode));
@@ -291,67 +343,59 @@ void GpuScene::draw_surface(const ViewItem& item, const Scene& scene, const Draw
 
 int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& from) {
     Gl& gl = *gl_;
-    surface_->bind();
-    const bool probe = probe_ready_ && from.use_probe;
-    gl.glUniform1i(at("u_base_texture"), 0);
-    gl.glUniform1i(at("u_emissive_texture"), 1);
-    gl.glUniform1i(at("u_probe"), 2);
-    gl.glUniform1f(at("u_exposure"), from.exposure);
-    gl.glUniform1i(at("u_linear"), from.linear ? 1 : 0);
-    gl.glUniform1i(at("u_has_probe"), probe ? 1 : 0);
-    gl.glUniform1f(at("u_probe_levels"), float(probe_levels_));
-    const auto relative = [&](const char* name, const dvec3& p) {
-        const vec3 r(p - from.eye);
-        gl.glUniform3f(at(name), r.x, r.y, r.z);
-    };
-    relative("u_probe_centre", probe_centre_);
-    relative("u_room_min", room_.min);
-    relative("u_room_max", room_.max);
-    gl.glActiveTexture(GL_TEXTURE2);
-    gl.glBindTexture(GL_TEXTURE_CUBE_MAP, probe ? probe_ : 0);
     gl.glEnable(GL_DEPTH_TEST);
     gl.glDepthMask(GL_TRUE);
     gl.glDisable(GL_BLEND);
     gl.glCullFace(GL_BACK);
 
     const dmat4 view_projection = from.projection * from.rotation;
-    struct Blended {
-        double distance;
+    struct Visible {
         const ViewItem* item;
+        unsigned variant;
+        double distance;
         mat4 mvp;
     };
-    std::vector<Blended> blended;
-    int drawn = 0;
+    std::vector<Visible> opaque;
+    std::vector<Visible> blended;
     for (const ViewItem& item : view.items()) {
         const mat4 mvp(view_projection * relative_to_eye(item, from.eye));
-        if (out_of_sight(item.bvh->bounds(), mvp)) {
+        const unsigned variant = variant_of(item);
+        if (out_of_sight(item.bvh->bounds(), mvp) || !compile(variant)) {
             continue;
         }
-        ++drawn;
-        if (is_blended(*item.material)) {
-            const dvec3 centre(item.world * dvec4(dvec3(item.bvh->bounds().centre()), 1.0));
-            blended.push_back({glm::length(centre - from.eye), &item, mvp});
-        } else {
-            draw_surface(item, scene, from, mvp);
-        }
+        const dvec3 centre(item.world * dvec4(dvec3(item.bvh->bounds().centre()), 1.0));
+        (is_blended(*item.material) ? blended : opaque).push_back({&item, variant, glm::length(centre - from.eye), mvp});
     }
+    // Few changes of program, and near things first, so that what they hide is not shaded.
+    std::stable_sort(opaque.begin(), opaque.end(), [](const Visible& a, const Visible& b) {
+        return a.variant != b.variant ? a.variant < b.variant : a.distance < b.distance;
+    });
+    std::stable_sort(blended.begin(), blended.end(),
+                     [](const Visible& a, const Visible& b) { return a.distance > b.distance; });
+    unsigned bound = kVariants;
+    const auto draw_all = [&](const std::vector<Visible>& list) {
+        for (const Visible& v : list) {
+            if (v.variant != bound) {
+                bound = v.variant;
+                begin(bound, from);
+            }
+            draw_surface(*v.item, v.variant, scene, from, v.mvp);
+        }
+    };
+    draw_all(opaque);
     if (!blended.empty()) {
-        std::stable_sort(blended.begin(), blended.end(),
-                         [](const Blended& a, const Blended& b) { return a.distance > b.distance; });
         gl.glEnable(GL_BLEND);
         gl.glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
         gl.glDepthMask(GL_FALSE);
-        for (const Blended& b : blended) {
-            draw_surface(*b.item, scene, from, b.mvp);
-        }
+        draw_all(blended);
         gl.glDepthMask(GL_TRUE);
         gl.glDisable(GL_BLEND);
     }
     gl.glFrontFace(GL_CCW);
     gl.glDisable(GL_CULL_FACE);
     gl.glBindVertexArray(0);
-    surface_->release();
-    return drawn;
+    gl.glUseProgram(0);
+    return int(opaque.size() + blended.size());
 }
 
 void GpuScene::draw_mask(const ViewScene& view, const DrawView& from, const vec4& color,
@@ -392,20 +436,19 @@ void GpuScene::draw_edges(const ViewScene& view, const DrawView& from) {
     gl_->glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
 }
 
-bool GpuScene::update_probe(const ViewScene& view, const Scene& scene, const DBox3& room, float exposure) {
+bool GpuScene::begin_probe(const ViewScene& view, const DBox3& room) {
     const bool wanted = !room.empty() && std::any_of(view.items().begin(), view.items().end(), [](const ViewItem& item) {
         return is_glass(*item.material) || is_metal(*item.material);
     });
-    probe_ready_ = false;
     Gl& gl = *gl_;
     if (!wanted) {
-        gl.glDeleteTextures(1, &probe_);
-        probe_ = 0;
+        gl.glDeleteTextures(1, &probe_.texture);
+        probe_ = {};
         return false;
     }
-    if (probe_ == 0) {
-        gl.glGenTextures(1, &probe_);
-        gl.glBindTexture(GL_TEXTURE_CUBE_MAP, probe_);
+    if (next_probe_.texture == 0) {
+        gl.glGenTextures(1, &next_probe_.texture);
+        gl.glBindTexture(GL_TEXTURE_CUBE_MAP, next_probe_.texture);
         for (GLenum face = 0; face < 6; ++face) {
             gl.glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, GL_RGBA16F, kProbeSize, kProbeSize, 0, GL_RGBA,
                             GL_FLOAT, nullptr);
@@ -416,9 +459,13 @@ bool GpuScene::update_probe(const ViewScene& view, const Scene& scene, const DBo
         gl.glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
         gl.glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
     }
-    room_ = room;
-    probe_centre_ = room.centre();
-    probe_levels_ = kProbeLevels;
+    next_probe_.room = room;
+    next_probe_.centre = room.centre();
+    return true;
+}
+
+void GpuScene::draw_probe_face(const ViewScene& view, const Scene& scene, unsigned face, float exposure) {
+    Gl& gl = *gl_;
     unsigned framebuffer = 0;
     unsigned depth = 0;
     gl.glGenFramebuffers(1, &framebuffer);
@@ -427,6 +474,8 @@ bool GpuScene::update_probe(const ViewScene& view, const Scene& scene, const DBo
     gl.glBindRenderbuffer(GL_RENDERBUFFER, depth);
     gl.glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, kProbeSize, kProbeSize);
     gl.glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
+    gl.glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_CUBE_MAP_POSITIVE_X + face,
+                              next_probe_.texture, 0);
     gl.glViewport(0, 0, kProbeSize, kProbeSize);
 
     // Cube map faces look along +x -x +y -y +z -z with these upward directions (OpenGL's own convention).
@@ -436,36 +485,35 @@ bool GpuScene::update_probe(const ViewScene& view, const Scene& scene, const DBo
                                                         {0, -1, 0, 0, 0, -1},
                                                         {0, 0, 1, 0, -1, 0},
                                                         {0, 0, -1, 0, -1, 0}}};
+    const auto& f = kFaces[face];
+    const dvec3 ahead(f[0], f[1], f[2]);
+    const dvec3 up(f[3], f[4], f[5]);
+    const dvec3 right = glm::cross(ahead, up);
     DrawView from;
-    from.eye = probe_centre_;
+    from.eye = next_probe_.centre;
     from.exposure = exposure;
     from.linear = true;
     from.use_probe = false;
+    from.rotation = glm::transpose(dmat4(dvec4(right, 0), dvec4(up, 0), dvec4(-ahead, 0), dvec4(0, 0, 0, 1)));
     const double near_plane = 0.02;
-    const double far_plane = std::max(2.0 * room.diagonal(), 10.0);
+    const double far_plane = std::max(2.0 * next_probe_.room.diagonal(), 10.0);
     from.projection = dmat4(0.0);
     from.projection[0][0] = from.projection[1][1] = 1.0;
     from.projection[2][2] = -(far_plane + near_plane) / (far_plane - near_plane);
     from.projection[2][3] = -1.0;
     from.projection[3][2] = -2.0 * far_plane * near_plane / (far_plane - near_plane);
     const Rgb sky = scene.environment.sky_radiance;
-    for (GLenum face = 0; face < 6; ++face) {
-        const auto& f = kFaces[face];
-        const dvec3 ahead(f[0], f[1], f[2]);
-        const dvec3 up(f[3], f[4], f[5]);
-        const dvec3 right = glm::cross(ahead, up);
-        from.rotation = glm::transpose(dmat4(dvec4(right, 0), dvec4(up, 0), dvec4(-ahead, 0), dvec4(0, 0, 0, 1)));
-        gl.glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, probe_, 0);
-        gl.glClearColor(sky.r, sky.g, sky.b, 1.0F);
-        gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        draw(view, scene, from);
-    }
+    gl.glClearColor(sky.r, sky.g, sky.b, 1.0F);
+    gl.glDepthMask(GL_TRUE);
+    gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    draw(view, scene, from);
     gl.glDeleteFramebuffers(1, &framebuffer);
     gl.glDeleteRenderbuffers(1, &depth);
-    gl.glBindTexture(GL_TEXTURE_CUBE_MAP, probe_);
-    gl.glGenerateMipmap(GL_TEXTURE_CUBE_MAP);
-    probe_ready_ = true;
-    return true;
+    if (face == 5) {
+        gl.glBindTexture(GL_TEXTURE_CUBE_MAP, next_probe_.texture);
+        gl.glGenerateMipmap(GL_TEXTURE_CUBE_MAP);
+        std::swap(probe_, next_probe_);
+    }
 }
 
 } // namespace atrium::ui

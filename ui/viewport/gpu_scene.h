@@ -5,6 +5,7 @@
 #include "ui/viewport/texture_cache.h"
 #include "ui/viewport/view_scene.h"
 
+#include <array>
 #include <functional>
 #include <map>
 #include <unordered_map>
@@ -38,9 +39,12 @@ public:
     /// Edges of the display meshes.
     void draw_edges(const ViewScene& view, const DrawView& from);
 
-    /// Renders the reflection probe if the scene shows specular materials: a small cube map of the lit surfaces at the
-    /// room's centre. Returns whether there is one.
-    bool update_probe(const ViewScene& view, const Scene& scene, const DBox3& room, float exposure);
+    /// The reflection probe is a small cube map of the lit surfaces, seen from the room's centre. It is drawn a face at a
+    /// time, so that a slow rasteriser does not stand still; the last complete one is used meanwhile.
+    /// False, and no probe any more, when the scene shows nothing specular.
+    bool begin_probe(const ViewScene& view, const DBox3& room);
+    /// Draws face 0 to 5; after the last one the new probe is in use.
+    void draw_probe_face(const ViewScene& view, const Scene& scene, unsigned face, float exposure);
 
 private:
     struct Geometry {
@@ -64,25 +68,35 @@ private:
     const Geometry& geometry_of(const ViewItem& item);
     const Lighting* lighting_of(const ViewItem& item);
     void bind(const ViewItem& item, const Geometry& geometry, const Lighting* lighting);
-    void draw_surface(const ViewItem& item, const Scene& scene, const DrawView& from, const mat4& mvp);
+    void draw_surface(const ViewItem& item, unsigned variant, const Scene& scene, const DrawView& from, const mat4& mvp);
     void set_sides(const ViewItem& item);
 
     Gl* gl_ = nullptr;
-    std::unique_ptr<QOpenGLShaderProgram> surface_;
+    /// Surface shader compiled for a set of features; locations by the literal's address: no text is hashed per surface.
+    struct Program {
+        std::unique_ptr<QOpenGLShaderProgram> program;
+        std::unordered_map<const char*, int> locations;
+        int at(const char* name);
+    };
+    enum Feature : unsigned { Textured = 1, Specular = 2, Headlight = 4, kVariants = 8 };
+    std::array<Program, kVariants> surface_;
     std::unique_ptr<QOpenGLShaderProgram> mask_;
-    std::unordered_map<const char*, int> locations_; ///< by the literal's address: no hashing of text per surface
-    int at(const char* name);
+    [[nodiscard]] static unsigned variant_of(const ViewItem& item);
+    bool compile(unsigned variant);
+    void begin(unsigned variant, const DrawView& from);
     std::unordered_map<const DisplayMesh*, Geometry> geometries_;
     std::unordered_map<const SurfaceLayer*, Lighting> lightings_;
     std::map<std::pair<NodeId, std::uint32_t>, Array> arrays_;
     TextureCache textures_;
     unsigned white_ = 0;
 
-    unsigned probe_ = 0;
-    bool probe_ready_ = false;
-    int probe_levels_ = 0;
-    dvec3 probe_centre_{0.0};
-    DBox3 room_;
+    struct Probe {
+        unsigned texture = 0;
+        dvec3 centre{0.0};
+        DBox3 room;
+    };
+    Probe probe_;      ///< complete, in use; texture 0 = none
+    Probe next_probe_; ///< being drawn
 };
 
 } // namespace atrium::ui

@@ -35,7 +35,8 @@ bool PictureRenderer::initialize(Gl& gl) {
     gl.glVertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, sizeof(OverlayVertex),
                              reinterpret_cast<const void*>(offsetof(OverlayVertex, color)));
     gl.glBindVertexArray(0);
-    picture_good_ = mask_good_ = probe_good_ = items_good_ = false;
+    picture_good_ = mask_good_ = items_good_ = false;
+    probe_face_ = 0;
     return true;
 }
 
@@ -65,11 +66,6 @@ void PictureRenderer::paint(const FrameInput& in) {
         gpu_.collect(in.view, in.scene);
         items_good_ = true;
     }
-    if (!probe_good_) {
-        gpu_.update_probe(in.view, in.scene, robust_bounds(in.scene), in.exposure);
-        probe_good_ = true;
-        picture_good_ = false;
-    }
     DrawView from;
     from.projection = in.camera.projection();
     from.rotation = in.camera.rotation();
@@ -89,6 +85,22 @@ void PictureRenderer::paint(const FrameInput& in) {
     gl.glBindFramebuffer(GL_FRAMEBUFFER, in.framebuffer);
     gl.glViewport(0, 0, in.width, in.height);
     draw_overlay(in);
+}
+
+bool PictureRenderer::step_probe(const ViewScene& view, const Scene& scene, float exposure) {
+    if (gl_ == nullptr || probe_face_ >= kProbeFaces) {
+        return false;
+    }
+    if (probe_face_ == 0 && !gpu_.begin_probe(view, robust_bounds(scene))) {
+        probe_face_ = kProbeFaces;
+        return false;
+    }
+    gpu_.draw_probe_face(view, scene, probe_face_++, exposure);
+    if (probe_face_ == kProbeFaces) {
+        invalidate_picture();
+        return false;
+    }
+    return true;
 }
 
 void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, int samples) {

@@ -33,10 +33,13 @@ public:
 
     void invalidate_picture() { picture_good_ = mask_good_ = false; } ///< camera, geometry, light or exposure changed
     void invalidate_mask() { mask_good_ = false; }                    ///< selection or hover changed
-    void invalidate_probe() { probe_good_ = false; }                  ///< the scene's light changed at rest
+    void invalidate_probe() { probe_face_ = 0; }                      ///< what mirrors show changed
     void invalidate_items() { items_good_ = false; }                  ///< the view scene was synchronised
 
     void paint(const FrameInput& in);
+
+    /// Does a part of the work on the reflection probe; call until it returns false.
+    bool step_probe(const ViewScene& view, const Scene& scene, float exposure);
 
     /// True on a software rasteriser, where the interactive picture has no smoothed edges.
     [[nodiscard]] bool software() const { return software_; }
@@ -50,6 +53,7 @@ private:
     void draw_outlines(const FrameInput& in, const DrawView& from);
     void draw_overlay(const FrameInput& in);
 
+    static constexpr unsigned kProbeFaces = 6;
     Gl* gl_ = nullptr;
     GpuScene gpu_;
     GlTarget picture_;
@@ -63,7 +67,7 @@ private:
     bool software_ = false;
     bool picture_good_ = false;
     bool mask_good_ = false;
-    bool probe_good_ = false;
+    unsigned probe_face_ = 0; ///< next face to draw; kProbeFaces = up to date
     bool items_good_ = false;
     int picture_samples_ = 0;
     int pictures_drawn_ = 0;

@@ -22,6 +22,7 @@ namespace atrium::ui {
 namespace {
 
 constexpr int kRefineAfterMs = 350;
+constexpr int kProbeAfterMs = 150; ///< of rest; then a face at a time
 constexpr int kWalkTickMs = 16;
 constexpr double kPinchSteps = 6.0; ///< dolly steps for a pinch to twice the size
 
@@ -68,6 +69,8 @@ struct ViewportWidget::Impl : ToolHost {
     std::optional<Pointer> pending;
     QTimer pending_timer;
     QTimer refine_timer;
+    QTimer probe_timer;
+    QMetaObject::Connection context_gone;
 
     bool walking = false;
     QSet<int> walk_keys;
@@ -85,7 +88,9 @@ struct ViewportWidget::Impl : ToolHost {
         pending_timer.setInterval(0);
         refine_timer.setSingleShot(true);
         refine_timer.setInterval(kRefineAfterMs);
+        probe_timer.setSingleShot(true);
         walk_timer.setInterval(kWalkTickMs);
+        QObject::connect(&probe_timer, &QTimer::timeout, &widget, [this] { step_probe(); });
         QObject::connect(&pending_timer, &QTimer::timeout, &widget, [this] { flush(); });
         QObject::connect(&refine_timer, &QTimer::timeout, &widget, [this] {
             refine = true;
@@ -97,11 +102,11 @@ struct ViewportWidget::Impl : ToolHost {
             view.note_edit(doc.scene(), edit, doc.revision());
             scene_changed();
             if (!doc.in_gesture()) {
-                renderer.invalidate_probe();
+                probe_changed();
             }
         });
         QObject::connect(&doc, &Document::gesture_finished, &widget, [this] {
-            renderer.invalidate_probe();
+            probe_changed();
             picture_changed();
         });
         QObject::connect(doc.selection(), &Selection::changed, &widget, [this] { selection_changed(); });
@@ -135,6 +140,29 @@ struct ViewportWidget::Impl : ToolHost {
         markers_dirty = true;
         refine = false;
         widget.update();
+    }
+    /// Mirrors follow when everything else has rested a little.
+    void probe_changed() {
+        renderer.invalidate_probe();
+        probe_timer.start(kProbeAfterMs);
+    }
+    void step_probe() {
+        if (pressed != Qt::NoButton || doc.in_gesture()) {
+            probe_timer.start(kProbeAfterMs);
+            return;
+        }
+        if (gl == nullptr) {
+            return; // not shown yet: initializeGL() starts over
+        }
+        sync();
+        widget.makeCurrent();
+        const bool more = renderer.step_probe(view, doc.scene(), scale());
+        widget.doneCurrent();
+        if (more) {
+            probe_timer.start(0);
+        } else {
+            widget.update();
+        }
     }
     void scene_changed() {
         items_dirty = true;
@@ -170,7 +198,7 @@ struct ViewportWidget::Impl : ToolHost {
         mean_is_final = false;
         set_hovered({});
         items_dirty = true;
-        renderer.invalidate_probe();
+        probe_changed();
         controller.set_scene_bounds(robust_bounds(doc.scene()));
         open_view();
         selection_changed();
@@ -198,7 +226,7 @@ struct ViewportWidget::Impl : ToolHost {
                 mean_is_final = solution->final;
             }
         }
-        renderer.invalidate_probe();
+        probe_changed();
         scene_changed();
     }
     /// Brings the items up to date before anything is asked of them.
@@ -376,6 +404,7 @@ ViewportWidget::ViewportWidget(Document& document, EngineLink& engine, QWidget* 
 }
 
 ViewportWidget::~ViewportWidget() {
+    disconnect(impl_->context_gone); // it would come after impl_ is gone
     impl_->tool().cancel();
     makeCurrent();
     impl_->renderer.release();
@@ -482,7 +511,8 @@ dvec3 ViewportWidget::placement_point() const {
 }
 
 void ViewportWidget::initializeGL() {
-    connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] {
+    disconnect(impl_->context_gone);
+    impl_->context_gone = connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] {
         makeCurrent();
         impl_->renderer.release();
         doneCurrent();
@@ -493,7 +523,9 @@ void ViewportWidget::initializeGL() {
         impl_->gl = nullptr;
         Q_EMIT message(tr("The 3D view needs OpenGL 3.3. Update the graphics driver, or start with software rendering: "
                           "LIBGL_ALWAYS_SOFTWARE=1"));
+        return;
     }
+    impl_->probe_changed();
 }
 
 void ViewportWidget::paintGL() {
