@@ -18,6 +18,13 @@ struct Vertices {
     std::vector<vec3> colors;
 };
 
+/// Texture coordinates without data, all 0: the writer's way of saying that the mesh has none (glTF wants an accessor where
+/// a material names one).
+bool is_empty_texcoord(const Json& root, const std::string& attribute, int accessor) {
+    const Json& json = section(root, "accessors")[std::size_t(accessor)];
+    return attribute.starts_with("TEXCOORD_") && !json.contains("bufferView") && !json.contains("sparse");
+}
+
 class MeshReader {
 public:
     MeshReader(ReadContext& context, std::size_t mesh)
@@ -121,6 +128,10 @@ Vertices MeshReader::read_vertices(const tinygltf::Primitive& primitive, const s
     }
     for (int set = 0; set < 2; ++set) {
         const char* name = set == 0 ? "TEXCOORD_0" : "TEXCOORD_1";
+        const auto given = primitive.attributes.find(name);
+        if (given != primitive.attributes.end() && is_empty_texcoord(context_.root, name, given->second)) {
+            continue;
+        }
         const FloatElements uv = attribute(primitive.attributes, name, 2, 2, where, NonFinite::Keep);
         for (std::size_t i = 0; i < uv.count(); ++i) {
             const bool good = is_finite(uv.at2(i));
@@ -148,7 +159,8 @@ std::size_t MeshReader::vertex_block(const tinygltf::Primitive& primitive, const
     std::vector<int> key;
     for (const char* name : {"POSITION", "NORMAL", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"}) {
         const auto it = primitive.attributes.find(name);
-        key.push_back(it != primitive.attributes.end() ? it->second : -1);
+        const bool has_data = it != primitive.attributes.end() && !is_empty_texcoord(context_.root, it->first, it->second);
+        key.push_back(has_data ? it->second : -1);
     }
     for (const auto& target : primitive.targets) {
         for (const auto& [name, accessor] : target) {
@@ -319,9 +331,15 @@ std::shared_ptr<const MeshData> MeshReader::read(std::vector<int>& materials) {
 }
 
 /// Meshes that differ in their materials alone are one shape: a shape has no materials, its nodes do.
-std::string sharing_key(Json mesh) {
+std::string sharing_key(const Json& root, Json mesh) {
     for (Json& primitive : mesh["primitives"]) {
         primitive.erase("material");
+        Json& attributes = primitive["attributes"];
+        for (const char* name : {"TEXCOORD_0", "TEXCOORD_1"}) {
+            if (attributes.contains(name) && is_empty_texcoord(root, name, attributes[name].get<int>())) {
+                attributes.erase(name);
+            }
+        }
     }
     return mesh.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -334,7 +352,7 @@ void read_meshes(ReadContext& context) {
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         const std::string where = place(context.root, "meshes", i);
         ReadContext::LoadedMesh loaded;
-        const auto [same, is_new] = first_of_key.try_emplace(sharing_key(meshes[i]), i);
+        const auto [same, is_new] = first_of_key.try_emplace(sharing_key(context.root, meshes[i]), i);
         std::vector<int> materials;
         if (is_new) {
             loaded.stand_in.data = MeshReader(context, i).read(materials);

@@ -181,6 +181,10 @@ void NodeReader::check_budget(const std::vector<int>& roots) {
 
 NodeId NodeReader::insert(Node node) {
     Scene& scene = context_.out.scene;
+    const auto is_usable = [](const dvec3& v) { return is_finite(v) && glm::length(v) < 1e30; };
+    if (!is_usable(node.transform.translation) || !is_usable(node.transform.scale)) {
+        refuse("node " + node.name, "its placement holds a number that is too large");
+    }
     const NodeId parent = node.parent;
     const NodeId id = scene.nodes.insert(std::move(node));
     if (Node* above = scene.nodes.find(parent)) {

@@ -60,8 +60,9 @@ public:
     [[nodiscard]] Json primitives(const std::vector<MaterialId>& materials) const {
         Json out = Json::array();
         for (std::size_t k = 0; k < parts_.size(); ++k) {
-            Json primitive = {{"attributes", attributes_[attributes_.size() == 1 ? 0 : k]}, {"indices", indices_[k]}};
+            const std::size_t range = ranges_.size() == 1 ? 0 : k;
             const MaterialId material = part_numbers_[k] < materials.size() ? materials[part_numbers_[k]] : MaterialId{};
+            Json primitive = {{"attributes", with_texcoords(range, material)}, {"indices", indices_[k]}};
             if (const auto it = context_.materials.find(material); it != context_.materials.end()) {
                 primitive["material"] = it->second;
             }
@@ -71,6 +72,29 @@ public:
     }
 
 private:
+    /// glTF wants the texture coordinates that a material names, and no gap in their numbers. Sets that the mesh lacks
+    /// become accessors without data (all zeros, no bytes), which the reader takes for absent.
+    [[nodiscard]] Json with_texcoords(std::size_t range, MaterialId id) const {
+        Json out = attributes_[range];
+        int sets = out.contains("TEXCOORD_1") ? 2 : 0;
+        const auto need = [&sets](const TextureRef& ref) { sets = ref ? std::max(sets, ref.texcoord + 1) : sets; };
+        if (const Material* material = context_.scene.materials.find(id)) {
+            need(material->base_color_texture);
+            need(material->emissive_texture);
+            for (const auto& other : material->other_textures) {
+                need(other.ref);
+            }
+        }
+        for (int set = 0; set < sets; ++set) {
+            const std::string name = "TEXCOORD_" + std::to_string(set);
+            if (!out.contains(name)) {
+                const std::uint32_t count = ranges_[range].end - ranges_[range].begin;
+                out[name] = context_.add("accessors", {{"componentType", kFloat}, {"count", count}, {"type", "VEC2"}});
+            }
+        }
+        return out;
+    }
+
     void write_vertices() {
         ranges_ = own_ranges(mesh_, parts_);
         if (ranges_.empty()) {

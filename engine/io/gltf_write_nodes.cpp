@@ -88,7 +88,9 @@ Json camera_json(const Camera& camera) {
 
 bool is_finite_transform(const Transform& t) {
     const dquat& q = t.rotation;
-    return is_finite(t.translation) && is_finite(t.scale) && std::isfinite(q.x + q.y + q.z + q.w) && glm::dot(q, q) > 0.0;
+    // The reader's bound: lengths and areas must stay finite.
+    return glm::length(t.translation) < 1e30 && glm::length(t.scale) < 1e30 && std::isfinite(q.x + q.y + q.z + q.w) &&
+           glm::dot(q, q) > 0.0;
 }
 
 void put_transform(const Transform& t, Json& json) {

@@ -189,6 +189,10 @@ Scene all_kinds_scene() {
     copy.shape = s.nodes.find(s.nodes.find(room)->children[6])->shape;
     copy.materials = {materials[2], MaterialId{}};
     add(s, room, copy);
+    // A material that names texture coordinates which the shape does not have.
+    copy.shape = s.nodes.find(s.nodes.find(room)->children[7])->shape;
+    copy.materials = {materials[0], materials[1]};
+    add(s, room, copy);
     add(s, {}, node_named("Bulb", lights[0]));
     add(s, {}, node_named("Bulb", lights[0], cameras[0]));
     add(s, {}, node_named("", lights[1]));

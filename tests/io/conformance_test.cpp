@@ -151,7 +151,7 @@ TEST(Conformance, texture_transforms_are_read) {
     EXPECT_EQ(material_named(loaded.scene, "Offset U")->base_color_texture.offset, vec2(0.5F, 0.0F));
     EXPECT_FLOAT_EQ(material_named(loaded.scene, "Rotation")->base_color_texture.rotation, kPi / 8.0F);
     const Texture& texture = *loaded.scene.textures.find(all.texture);
-    EXPECT_EQ(texture.uri, "UV.png");
+    EXPECT_EQ(texture.uri, "Arrow.png");
     ASSERT_TRUE(texture.image);
     EXPECT_GT(texture.image->width, 1);
 }

@@ -3,7 +3,8 @@
 # Without node or the package the test is skipped, and says so.
 if(TARGET io_tests)
   add_test(NAME io_validator_scenes COMMAND io_tests --gtest_filter=ValidatorScenes.*)
-  set_tests_properties(io_validator_scenes PROPERTIES FIXTURES_SETUP validator_scenes TIMEOUT 300)
+  set_tests_properties(io_validator_scenes PROPERTIES FIXTURES_SETUP validator_scenes TIMEOUT 300
+                       ENVIRONMENT "ATRIUM_VALIDATOR_SCENES=${CMAKE_BINARY_DIR}/validator_scenes")
   add_test(NAME io_khronos_validator
            COMMAND sh -c "command -v node >/dev/null || { echo 'node is not installed'; exit 77; }; exec node \"$@\"" sh
                    ${CMAKE_CURRENT_LIST_DIR}/validator/validate.js ${CMAKE_BINARY_DIR}/gltf-validator
