@@ -30,6 +30,7 @@ uniform float u_probe_levels;
 uniform vec3 u_probe_centre; // all relative to the eye
 uniform vec3 u_room_min;
 uniform vec3 u_room_max;
+uniform vec3 u_filter; // what the mirror that one looks into leaves of the light
 uniform float u_exposure;
 uniform bool u_linear; // the probe keeps radiance
 
@@ -110,6 +111,6 @@ void main() {
     if (u_unlit_material) {
         o_color = u_linear ? vec4(base.rgb / u_exposure, alpha) : vec4(encode(base.rgb), alpha);
     } else {
-        o_color = shown(radiance, alpha);
+        o_color = shown(radiance * u_filter, alpha);
     }
 }

@@ -117,8 +117,10 @@ void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, i
     const Rgb ground = max_component(sky) > 0.0F ? display_color(sky, in.exposure) : Rgb(0.27F);
     gl.glClearColor(ground.r, ground.g, ground.b, 1.0F);
     gl.glDepthMask(GL_TRUE);
-    gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    gpu_.draw(in.view, in.scene, from);
+    gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    DrawView with_background = from;
+    with_background.background = ground;
+    gpu_.draw(in.view, in.scene, with_background);
     if (in.wireframe) {
         gpu_.draw_edges(in.view, from);
     }
