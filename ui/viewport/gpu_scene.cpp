@@ -30,20 +30,37 @@ std::uint32_t pack_normal(const vec3& n) {
 
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
-/// True when a box lies wholly outside one side of the view.
-bool out_of_sight(const Box3& box, const mat4& mvp) {
+/// True when a box lies wholly outside one side of the view's window (x and y from, x and y to; -1 to 1 is all).
+bool out_of_sight(const Box3& box, const mat4& mvp, const vec4& window = vec4(-1.0F, -1.0F, 1.0F, 1.0F)) {
     std::array<int, 6> outside{};
     for (int i = 0; i < 8; ++i) {
         const vec4 p = mvp * vec4((i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
                                   (i & 4) != 0 ? box.max.z : box.min.z, 1.0F);
-        outside[0] += p.x < -p.w;
-        outside[1] += p.x > p.w;
-        outside[2] += p.y < -p.w;
-        outside[3] += p.y > p.w;
+        outside[0] += p.x < window.x * p.w;
+        outside[1] += p.x > window.z * p.w;
+        outside[2] += p.y < window.y * p.w;
+        outside[3] += p.y > window.w * p.w;
         outside[4] += p.z < -p.w;
         outside[5] += p.z > p.w;
     }
     return std::find(outside.begin(), outside.end(), 8) != outside.end();
+}
+
+/// The part of the view that a box can cover.
+vec4 window_of(const Box3& box, const mat4& mvp) {
+    vec4 window(1.0F, 1.0F, -1.0F, -1.0F);
+    for (int i = 0; i < 8; ++i) {
+        const vec4 p = mvp * vec4((i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
+                                  (i & 4) != 0 ? box.max.z : box.min.z, 1.0F);
+        if (p.w < 1e-4F) {
+            return vec4(-1.0F, -1.0F, 1.0F, 1.0F);
+        }
+        window.x = std::min(window.x, p.x / p.w);
+        window.y = std::min(window.y, p.y / p.w);
+        window.z = std::max(window.z, p.x / p.w);
+        window.w = std::max(window.w, p.y / p.w);
+    }
+    return glm::clamp(window, vec4(-1.0F), vec4(1.0F));
 }
 
 bool is_glass(const Material& m) {
@@ -374,7 +391,7 @@ int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& fr
     for (const ViewItem& item : view.items()) {
         const mat4 mvp(view_projection * relative_to_eye(item, from.eye));
         const unsigned variant = variant_of(item);
-        if (out_of_sight(item.bvh->bounds(), mvp) || !compile(variant)) {
+        if (out_of_sight(item.bvh->bounds(), mvp, from.window) || !compile(variant)) {
             continue;
         }
         const dvec3 centre(item.world * dvec4(dvec3(item.bvh->bounds().centre()), 1.0));
@@ -473,6 +490,7 @@ void GpuScene::draw_mirror(const ViewItem& item, const ViewScene& view, const Sc
     behind.eye = from.eye - normal * (2.0 * glm::dot(from.eye - point, normal));
     // A millimetre in front, so that the mirror does not hide what it shows.
     behind.clip = vec4(vec3(normal), float(glm::dot(behind.eye - point, normal) - 0.001));
+    behind.window = window_of(item.bvh->bounds(), mvp);
     behind.filter = glm::clamp(item.material->base_color, Rgb(0.0F), Rgb(1.0F));
     gl.glEnable(GL_CLIP_DISTANCE0);
     draw(view, scene, behind);

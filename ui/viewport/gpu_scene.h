@@ -23,7 +23,8 @@ struct DrawView {
     vec3 background{0.0F};  ///< display values behind everything, also in flat mirrors
     bool reflected = false; ///< looks into a flat mirror: `rotation` reflects, and what lies behind the mirror is cut off
     vec4 clip{0.0F};        ///< the mirror's plane relative to the eye, positive in front
-    vec3 filter{1.0F};      ///< the mirror's reflectance
+    vec4 window{-1.0F, -1.0F, 1.0F, 1.0F}; ///< what of the view is of use: x and y from, x and y to
+    vec3 filter{1.0F};                     ///< the mirror's reflectance
 };
 
 /// Needs the GL context current in every function but the constructor. UI thread only.
