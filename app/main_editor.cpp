@@ -58,8 +58,7 @@ int main(int argc, char** argv) {
     format.setVersion(3, 3);
     format.setProfile(QSurfaceFormat::CoreProfile);
     format.setDepthBufferSize(24);
-    QSurfaceFormat::setDefaultFormat(format); // before the application object, as shared contexts ask
-    QCoreApplication::setAttribute(Qt::AA_ShareOpenGLContexts);
+    QSurfaceFormat::setDefaultFormat(format); // before the application object
     QApplication app(argc, argv);
     std::setlocale(LC_NUMERIC, "C"); // Qt has set the user's locale; libraries that print numbers must not follow it
     QCoreApplication::setOrganizationName(QStringLiteral("Atrium"));

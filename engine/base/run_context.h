@@ -9,15 +9,31 @@
 
 namespace atrium {
 
-/// Shared stop flag. Copies refer to the same flag; request_stop() may be called from any thread.
+/// Shared stop flag. Copies refer to the same flag; every function may be called from any thread.
 class StopFlag {
 public:
-    StopFlag() : flag_(std::make_shared<std::atomic<bool>>(false)) {}
-    void request_stop() const { flag_->store(true, std::memory_order_relaxed); }
-    [[nodiscard]] bool stop_requested() const { return flag_->load(std::memory_order_relaxed); }
+    using Clock = std::chrono::steady_clock;
+
+    void request_stop() const { state_->stop.store(true, std::memory_order_relaxed); }
+    /// Stops at a time to come, unless another call puts it off; Clock::time_point::max() takes the request back.
+    void request_stop_at(Clock::time_point time) const {
+        state_->stop_at.store(time.time_since_epoch().count(), std::memory_order_relaxed);
+    }
+    [[nodiscard]] bool stop_requested() const {
+        if (state_->stop.load(std::memory_order_relaxed)) {
+            return true;
+        }
+        const Clock::rep at = state_->stop_at.load(std::memory_order_relaxed);
+        return at != kNever && Clock::now().time_since_epoch().count() >= at; // the clock is read only when a time is set
+    }
 
 private:
-    std::shared_ptr<std::atomic<bool>> flag_;
+    static constexpr Clock::rep kNever = Clock::time_point::max().time_since_epoch().count();
+    struct State {
+        std::atomic<bool> stop = false;
+        std::atomic<Clock::rep> stop_at = kNever;
+    };
+    std::shared_ptr<State> state_ = std::make_shared<State>();
 };
 
 /// One report of progress. `phase` is a static, untranslated name such as "visibility"; fraction is of the whole job.

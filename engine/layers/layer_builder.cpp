@@ -24,6 +24,8 @@ struct Vertex {
     float triangles = 0.0F;
     std::uint32_t weld = 0; ///< same for coincident vertices of the node
     bool wants_back = false;
+    bool front_covered = false; ///< something lies on the surface here: no light of its own, shown like its neighbours
+    bool back_covered = false;
     DirectSample front;
     DirectSample back;
 };
@@ -315,15 +317,78 @@ private:
         const float length = glm::length(mean);
         const vec3 p = length > 0.0F ? v.position + mean * std::min(0.1F, kPullIn / length) : v.position;
         v.front = gather_.irradiance(p, v.normal, settings_.gather);
+        v.front_covered = luminance(v.front.irradiance) < settings_.light_floor && covered(p, v.normal);
         if (v.wants_back) {
             v.back = gather_.irradiance(p, -v.normal, settings_.gather);
+            v.back_covered = luminance(v.back.irradiance) < settings_.light_floor && covered(p, -v.normal);
+        }
+    }
+
+    // True where no light can reach because something rests on the surface or encloses the point: every way out of the
+    // half space is shut within a few centimetres.
+    [[nodiscard]] bool covered(const vec3& p, const vec3& n) const {
+        const float reach = 2.0F * settings_.smallest_edge;
+        vec3 t;
+        vec3 b;
+        make_frame(n, t, b);
+        for (int i = 0; i < 9; ++i) {
+            const float angle = 2.0F * kPi * float(i) / 8.0F;
+            const vec3 d = i == 8 ? n : glm::normalize(0.35F * n + std::cos(angle) * t + std::sin(angle) * b);
+            if (!rays_.occluded(p, p + d * reach)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    // Covered vertices take the light of their uncovered neighbours, so that the edge of a foot, a board or a rug is where
+    // the object ends and no dark halo runs out from under it.
+    static void fill_covered(NodeMesh& mesh, bool Vertex::*covered, DirectSample Vertex::*sample) {
+        std::vector<std::uint32_t> open;
+        for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+            if (mesh.vertices[v].*covered) {
+                open.push_back(v);
+            }
+        }
+        std::vector<Rgb> sum(open.empty() ? 0 : mesh.vertices.size());
+        std::vector<float> count(sum.size());
+        while (!open.empty()) {
+            std::fill(sum.begin(), sum.end(), Rgb(0.0F));
+            std::fill(count.begin(), count.end(), 0.0F);
+            for (const Triangle& t : mesh.triangles) {
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const std::uint32_t to = t.v[k];
+                    for (const std::uint32_t from : {t.v[(k + 1) % 3], t.v[(k + 2) % 3]}) {
+                        if (mesh.vertices[to].*covered && !(mesh.vertices[from].*covered)) {
+                            sum[to] += (mesh.vertices[from].*sample).irradiance;
+                            count[to] += 1.0F;
+                        }
+                    }
+                }
+            }
+            std::vector<std::uint32_t> left;
+            for (const std::uint32_t v : open) {
+                if (count[v] > 0.0F) {
+                    (mesh.vertices[v].*sample).irradiance = sum[v] / count[v];
+                    mesh.vertices[v].*covered = false;
+                } else {
+                    left.push_back(v);
+                }
+            }
+            if (left.size() == open.size()) {
+                break; // wholly enclosed: dark, and nobody sees it
+            }
+            open.swap(left);
         }
     }
 
     static float deviation(const DirectSample& a, const DirectSample& m, const DirectSample& b, float floor) {
         const float la = luminance(a.irradiance), lm = luminance(m.irradiance), lb = luminance(b.irradiance);
         const float mean = 0.5F * (la + lb);
-        return std::max(std::abs(lm - mean), 0.2F * std::abs(la - lb)) / std::max({mean, lm, floor});
+        const float difference = std::max(std::abs(lm - mean), 0.2F * std::abs(la - lb));
+        // A difference that the samples' own noise explains is no reason to look closer: it would be noise again.
+        const float noise = std::sqrt(m.variance + 0.25F * (a.variance + b.variance));
+        return difference > 2.0F * noise ? difference / std::max({mean, lm, floor}) : 0.0F;
     }
 
     // One level: samples the midpoints of all open edges, splits those that deviate. False when nothing was split.
@@ -373,8 +438,14 @@ private:
             const Candidate& c = candidates[i];
             const Vertex& a = meshes_[c.mesh].vertices[c.a];
             const Vertex& b = meshes_[c.mesh].vertices[c.b];
-            float d = deviation(a.front, c.middle.front, b.front, settings_.light_floor);
-            if (a.wants_back) {
+            // Between covered points there is nothing to see; the border itself is the object's and needs no finer mesh.
+            float d = 0.0F;
+            if (int(a.front_covered) + int(b.front_covered) + int(c.middle.front_covered) == 0) {
+                d = deviation(a.front, c.middle.front, b.front, settings_.light_floor);
+            } else if (a.front_covered != b.front_covered) {
+                d = 2.0F * settings_.contrast; // look where the cover ends
+            }
+            if (a.wants_back && int(a.back_covered) + int(b.back_covered) + int(c.middle.back_covered) == 0) {
                 d = std::max(d, deviation(a.back, c.middle.back, b.back, settings_.light_floor));
             }
             if (d > settings_.contrast) {
@@ -431,9 +502,11 @@ private:
 
     LayerSet finish() {
         LayerSet out;
-        double error = 0.0, light = 0.0, area_sum = 0.0, log_sum = 0.0, log_area = 0.0;
+        double error = 0.0, area_sum = 0.0, log_sum = 0.0, log_area = 0.0;
         out.surfaces.resize(rays_.surfaces().size());
         for (NodeMesh& mesh : meshes_) {
+            fill_covered(mesh, &Vertex::front_covered, &Vertex::front);
+            fill_covered(mesh, &Vertex::back_covered, &Vertex::back);
             std::map<std::uint32_t, std::vector<const Triangle*>> by_surface;
             for (const Triangle& t : mesh.triangles) {
                 by_surface[t.surface].push_back(&t);
@@ -462,11 +535,12 @@ private:
                         display->indices.push_back(it->second);
                         const double w = area / 3.0;
                         const double e = luminance(vertex.front.irradiance);
-                        error += w * vertex.front.variance;
-                        light += w * e;
+                        const double level = e + settings_.light_floor;
+                        error += w * vertex.front.variance / (level * level);
                         area_sum += w;
                         const double radiance = luminance(rho * vertex.front.irradiance) / kPiD;
-                        if (radiance > 0.0) {
+                        // Outer sides and closed cupboards are dark and not what anyone looks at.
+                        if (radiance > 0.0 && e > settings_.light_floor) {
                             log_sum += w * std::log(radiance);
                             log_area += w;
                         }
@@ -478,7 +552,7 @@ private:
             }
         }
         std::erase(out.surfaces, nullptr);
-        out.error_estimate = light > 0.0 ? std::sqrt(error * area_sum) / light : 0.0;
+        out.error_estimate = area_sum > 0.0 ? std::sqrt(error / area_sum) : 0.0;
         out.mean_radiance = log_area > 0.0 ? std::exp(log_sum / log_area) : 0.0;
         return out;
     }

@@ -23,7 +23,7 @@ struct LayerSettings {
 /// What build_layers() makes.
 struct LayerSet {
     std::vector<std::shared_ptr<const SurfaceLayer>> surfaces;
-    double error_estimate = 0.0; ///< area-weighted relative RMS of the vertices' own standard errors
+    double error_estimate = 0.0; ///< area-weighted RMS of the vertices' relative standard errors
     double mean_radiance = 0.0;  ///< log-average of reflected radiance, cd/m2
     std::size_t vertices = 0;
     bool complete = false; ///< false when the context asked to stop

@@ -4,6 +4,7 @@
 #include "engine/geometry/form_factor.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace atrium {
 namespace {
@@ -17,12 +18,7 @@ struct CutNode {
     float error = 0.0F;     ///< of its luminance, unoccluded; what refinement goes by
 };
 
-struct Point {
-    vec3 position;
-    vec3 normal;
-};
-
-Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e, const Point& p) {
+Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e, const SurfacePoint& p) {
     Rgb sum(0.0F);
     for (std::uint32_t f = e.triangle; f < e.triangle + e.face_count; ++f) {
         const Face& face = h.faces[f];
@@ -34,7 +30,7 @@ Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e,
     return sum;
 }
 
-CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, const Point& p) {
+CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, const SurfacePoint& p) {
     const Element& e = h.elements[index];
     CutNode out;
     out.element = index;
@@ -61,7 +57,7 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, 
             return out;
         }
     } else if (r < 1.5F * e.radius) {
-        out.error = std::numeric_limits<float>::max(); // inside or beside it: no direction describes it
+        out.error = std::numeric_limits<float>::max(); // inside or beside it: no direction describes it, look at its parts
         return out;
     }
     const vec3 w = d / r;
@@ -79,7 +75,53 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, 
     return out;
 }
 
+/// Elements with a single ray each: their hits and misses together tell how uncertain one of them is.
+struct SingleRays {
+    float light2 = 0.0F; ///< sum of squared luminances
+    float clear = 0.0F;
+    float rays = 0.0F;
+
+    void add(float light, float seen) {
+        light2 += light * light;
+        clear += seen;
+        rays += 1.0F;
+    }
+    [[nodiscard]] float variance() const {
+        const float p = rays > 0.0F ? clear / rays : 0.0F;
+        return light2 * p * (1.0F - p);
+    }
+};
+
 } // namespace
+
+PointGather::Visibility PointGather::visibility(std::uint32_t element, const SurfacePoint& receiver, unsigned count) const {
+    Visibility out;
+    const auto seed = std::uint32_t(hash64(h_.elements[element].path));
+    Rgb seen(0.0F);
+    float total_weight = 0.0F;
+    // The same points for every receiver: shadows get a few fine steps instead of noise. Points that face away are passed
+    // over, up to four tries for each ray.
+    for (unsigned i = 0; out.rays < count && i < 4 * count; ++i) {
+        const SurfacePoint y = sample_point(h_, rays_, element, sobol_owen2(i, 0, seed), true);
+        const vec3 d = y.position - receiver.position;
+        const float d2 = glm::dot(d, d);
+        const float cp = glm::dot(d, receiver.normal);
+        const float cy = -glm::dot(d, y.normal);
+        if (cp <= 0.0F || cy <= 0.0F || d2 <= 0.0F) {
+            continue;
+        }
+        ++out.rays;
+        // A floor on the distance keeps one near sample from deciding everything.
+        const float near2 = std::max(d2, 0.01F * h_.elements[element].area);
+        const float weight = cp * cy / (d2 * near2);
+        const Rgb through = rays_.transmittance(receiver.position, y.position);
+        seen += through * weight;
+        out.clear += max_component(through) > 0.0F ? 1.0F : 0.0F;
+        total_weight += weight;
+    }
+    out.seen = total_weight > 0.0F ? seen / total_weight : Rgb(0.0F);
+    return out;
+}
 
 DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, const GatherSettings& settings) const {
     DirectSample out;
@@ -89,7 +131,7 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
     if (h_.empty() || !(h_.elements[0].power > 0.0F)) {
         return out;
     }
-    const Point p{point, normal};
+    const SurfacePoint p{point, normal};
     const auto smaller_error = [](const CutNode& a, const CutNode& b) {
         return a.error < b.error || (a.error == b.error && a.element > b.element);
     };
@@ -125,48 +167,43 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
     if (!(unoccluded > 0.0F)) {
         return out;
     }
+    // Strong elements get rays of their own; the many weak ones share theirs: stratified picks along their summed light.
+    std::sort(done.begin(), done.end(), [](const CutNode& a, const CutNode& b) { return a.element < b.element; });
+    const float own_ray = 0.5F * unoccluded / float(settings.rays);
+    float weak = 0.0F;
+    SingleRays single;
     for (const CutNode& node : done) {
-        const float share = luminance(node.contribution) / unoccluded;
-        if (!(share > 0.0F)) {
+        const float light = luminance(node.contribution);
+        if (light < own_ray) {
+            weak += light;
             continue;
         }
-        const auto count = std::max(1U, unsigned(std::lround(share * float(settings.rays))));
-        const auto seed = std::uint32_t(hash64(h_.elements[node.element].path));
-        Rgb seen(0.0F);
-        float total_weight = 0.0F;
-        float clear = 0.0F;
-        // The same points for every receiver: shadows get a few fine steps instead of noise. Points that face away are
-        // passed over, up to four tries for each ray.
-        unsigned shot = 0;
-        for (unsigned i = 0; shot < count && i < 4 * count; ++i) {
-            const SurfacePoint y = sample_point(h_, rays_, node.element, sobol_owen2(i, 0, seed), true);
-            const vec3 d = y.position - point;
-            const float d2 = glm::dot(d, d);
-            const float cp = glm::dot(d, normal);
-            const float cy = -glm::dot(d, y.normal);
-            if (cp <= 0.0F || cy <= 0.0F || d2 <= 0.0F) {
-                continue;
-            }
-            ++shot;
-            // A floor on the distance keeps one near sample from deciding everything.
-            const float near2 = std::max(d2, 0.01F * h_.elements[node.element].area);
-            const float weight = cp * cy / (d2 * near2);
-            const Rgb through = rays_.transmittance(point, y.position);
-            seen += through * weight;
-            clear += max_component(through) > 0.0F ? 1.0F : 0.0F;
-            total_weight += weight;
-        }
-        if (total_weight > 0.0F) {
-            out.irradiance += node.contribution * seen / total_weight;
-            const auto n = float(shot);
-            const float light = luminance(node.contribution);
-            if (n > 1.0F && clear > 0.0F && clear < n) {
-                out.variance += light * light * (clear + 1.0F) * (n - clear + 1.0F) / ((n + 2.0F) * (n + 2.0F) * n);
-            } else if (n <= 1.0F) {
-                out.variance += light * light * 0.08F; // one ray: half-way between certain and unknown
-            }
+        const auto count = std::max(1U, unsigned(std::lround(light / unoccluded * float(settings.rays))));
+        const Visibility v = visibility(node.element, p, count);
+        out.irradiance += node.contribution * v.seen;
+        const auto n = float(v.rays);
+        if (n > 1.0F && v.clear > 0.0F && v.clear < n) {
+            out.variance += light * light * (v.clear + 1.0F) * (n - v.clear + 1.0F) / ((n + 2.0F) * (n + 2.0F) * n);
+        } else if (n == 1.0F) {
+            single.add(light, v.clear);
         }
     }
+    const auto picks = unsigned(std::ceil(weak / unoccluded * float(settings.rays)));
+    const float stride = weak / float(std::max(picks, 1U));
+    float next = 0.5F * stride;
+    float passed = 0.0F;
+    for (const CutNode& node : done) {
+        const float light = luminance(node.contribution);
+        if (light >= own_ray || !(light > 0.0F)) {
+            continue;
+        }
+        for (passed += light; next < passed; next += stride) {
+            const Visibility v = visibility(node.element, p, 1);
+            out.irradiance += node.contribution * (stride / light) * v.seen;
+            single.add(stride, v.clear);
+        }
+    }
+    out.variance += single.variance();
     return out;
 }
 

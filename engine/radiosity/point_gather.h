@@ -26,6 +26,13 @@ public:
     [[nodiscard]] DirectSample irradiance(const vec3& point, const vec3& normal, const GatherSettings& settings) const;
 
 private:
+    struct Visibility {
+        Rgb seen{0.0F};     ///< weighted share of an element's light that arrives
+        float clear = 0.0F; ///< rays that were not blocked
+        unsigned rays = 0;
+    };
+    [[nodiscard]] Visibility visibility(std::uint32_t element, const SurfacePoint& receiver, unsigned count) const;
+
     const Hierarchy& h_;
     const RayScene& rays_;
     const DirectLight& direct_;

@@ -10,8 +10,8 @@
 
 namespace atrium {
 
-/// Transport between leaves: E = s * push(gather(pull(s * B))). Built once per set of links; apply() is deterministic for any
-/// number of threads (every element sums its own links in link order).
+/// Transport between leaves: E = s * push(gather(pull(s * B))). Built once per set of links; apply() is deterministic for
+/// any number of threads (every element sums its own links in link order).
 class Transport {
 public:
     Transport(Hierarchy& hierarchy, const std::vector<Link>& links);

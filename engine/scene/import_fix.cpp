@@ -35,18 +35,23 @@ std::string number(double value) {
 struct Form {
     DBox3 bounds;
     dvec3 area_along{0.0};
-    std::size_t shapes = 0;
+    dvec3 area_at_sides{0.0}; ///< the part of it that lies in the outer 15 % of the bounds on either side
 };
 
 Form form_of(const Scene& scene) {
+    struct Facing {
+        int axis;
+        double at; ///< of the triangle's centre, along the axis
+        double area;
+    };
     Form out;
+    std::vector<Facing> faces;
     std::map<ShapeId, std::shared_ptr<const MeshData>> meshes; // instances share one tessellation
     scene.nodes.for_each([&](NodeId id, const Node& node) {
         const Shape* shape = scene.shapes.find(node.shape);
         if (shape == nullptr || !scene.shown(id)) {
             return;
         }
-        ++out.shapes;
         auto& mesh = meshes[node.shape];
         if (!mesh) {
             mesh = tessellate(shape->geometry, {8});
@@ -67,11 +72,17 @@ Form form_of(const Scene& scene) {
             const double area = glm::length(n);
             for (int axis = 0; axis < 3; ++axis) {
                 if (std::abs(n[axis]) > 0.9 * area) {
-                    out.area_along[axis] += area;
+                    faces.push_back({axis, (a[axis] + b[axis] + c[axis]) / 3.0, area});
                 }
             }
         }
     });
+    for (const Facing& f : faces) {
+        const double inset = 0.15 * out.bounds.size()[f.axis];
+        const bool at_side = f.at < out.bounds.min[f.axis] + inset || f.at > out.bounds.max[f.axis] - inset;
+        out.area_along[f.axis] += f.area;
+        out.area_at_sides[f.axis] += at_side ? f.area : 0.0;
+    }
     return out;
 }
 
@@ -115,15 +126,17 @@ bool shaped_z_up(const Form& form) {
     const dvec3& area = form.area_along;
     const bool flat = size.z < 0.8 * std::min(size.x, size.y);
     const bool floors = area.z > 1.3 * std::max(area.x, area.y);
-    const bool walls = area.x > 0.1 * area.z && area.y > 0.1 * area.z; // a picture or a facade has none
+    // A picture or a facade has next to no walls, and a row of exhibits before a backdrop none at its sides; a room has
+    // four.
+    const bool walls = std::min(area.x, area.y) > 0.1 * area.z && form.area_at_sides.x > 0.5 * size.y * size.z &&
+                       form.area_at_sides.y > 0.5 * size.x * size.z;
     return flat && floors && walls;
 }
 
 /// Signs that +Y was up after all.
-bool stands_on_y(const Scene& scene, const Form& form, double metres) {
+bool stands_on_y(const Form& form, int cameras, double metres) {
     const dvec3 size = form.bounds.size() * metres;
     const dvec3 base = glm::abs(form.bounds.min * metres);
-    const int cameras = cameras_say(scene);
     if (cameras != 0) {
         return cameras < 0;
     }
@@ -148,7 +161,7 @@ ImportSuggestion suggest_import_fix(const Scene& scene) {
     const Unit* unit = nullptr;
     if (shaped_z_up(form)) {
         unit = unit_for(size, 2);
-        out.z_up = !stands_on_y(scene, form, unit != nullptr ? unit->metres : 1.0);
+        out.z_up = !stands_on_y(form, cameras_say(scene), unit != nullptr ? unit->metres : 1.0);
     }
     if (!out.z_up) {
         unit = unit_for(size, 1);

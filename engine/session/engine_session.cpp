@@ -74,7 +74,7 @@ struct EngineSession::Impl {
                 scheduler.on_failure();
                 message = refusal;
             }
-            if (scheduler.should_start() && !pending_load && mailbox.empty()) {
+            if (scheduler.should_start() && !pending_load && mailbox.empty() && !quit) {
                 solve_once(lock);
             }
             lock.unlock();
@@ -129,10 +129,10 @@ struct EngineSession::Impl {
         using Outcome = QualityScheduler::Outcome;
         RunContext context;
         context.stop = stop;
-        context.on_progress = [&](const Progress& p) { on_progress(p, stop); };
+        context.on_progress = [&](const Progress& p) { on_progress(p); };
         const SolveOptions options{scene.settings.quality, scene.settings.seed, 0.0, revision};
         try {
-            auto result = solve(scene, options, context, [&](const Picture& picture) { on_snapshot(picture, stop); });
+            auto result = solve(scene, options, context, [&](const Picture& picture) { on_snapshot(picture); });
             if (!result) {
                 const bool asked = stop.stop_requested();
                 return {asked ? Outcome::Stopped : Outcome::Failed, nullptr, result.error().message()};
@@ -150,7 +150,7 @@ struct EngineSession::Impl {
         }
     }
 
-    void on_progress(const Progress& progress, const StopFlag& stop) {
+    void on_progress(const Progress& progress) {
         const auto now = Clock::now();
         bool news = false;
         {
@@ -158,7 +158,6 @@ struct EngineSession::Impl {
             news = phase != progress.phase || now - last_wake >= kWakeInterval;
             phase = progress.phase;
             fraction = std::clamp(progress.fraction, fraction, 1.0);
-            stop_if_stale(now, stop);
         }
         if (news) {
             last_wake = now;
@@ -166,10 +165,9 @@ struct EngineSession::Impl {
         }
     }
 
-    void on_snapshot(const Picture& picture, const StopFlag& stop) {
+    void on_snapshot(const Picture& picture) {
         {
             const std::lock_guard lock(mutex);
-            stop_if_stale(Clock::now(), stop);
             if (picture == nullptr || scheduler.abandoned()) {
                 return;
             }
@@ -190,11 +188,8 @@ struct EngineSession::Impl {
         latest_revision = revision; // of the scene being solved; publish() is called during a solve only
         latest = std::move(picture);
     }
-    void stop_if_stale(Clock::time_point now, const StopFlag& stop) const {
-        if (scheduler.should_stop(now)) {
-            stop.request_stop();
-        }
-    }
+    /// Tells the running solve when it is of no more use: now, or once the hand has rested. No timer is needed for that.
+    void stop_if_stale() const { running_stop.request_stop_at(scheduler.stop_time()); }
 
     // ---- any thread ----
 
@@ -215,7 +210,7 @@ struct EngineSession::Impl {
             fraction = 0.0;
             message.clear();
             last_duration = {};
-            stop_if_stale(Clock::now(), running_stop);
+            stop_if_stale();
         }
         changed.notify_all();
     }
@@ -233,7 +228,7 @@ struct EngineSession::Impl {
                 light_revision = edit_revision;
             }
             scheduler.on_edit(now, !neutral, in_gesture);
-            stop_if_stale(now, running_stop);
+            stop_if_stale();
         }
         changed.notify_all();
     }
@@ -242,7 +237,7 @@ struct EngineSession::Impl {
         {
             const std::lock_guard lock(mutex);
             event();
-            stop_if_stale(Clock::now(), running_stop);
+            stop_if_stale();
         }
         changed.notify_all();
     }

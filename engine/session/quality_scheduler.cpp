@@ -77,12 +77,14 @@ void QualityScheduler::on_failure() {
     needed_ = true;
 }
 
-bool QualityScheduler::should_stop(Time now) const {
+QualityScheduler::Time QualityScheduler::stop_time() const {
     if (!running_) {
-        return false;
+        return Time::max();
     }
-    const bool stale = needed_ && (!in_gesture_ || now - last_edit_ >= kRest);
-    return abandoned_ || cancelled_ || stale;
+    if (abandoned_ || cancelled_ || (needed_ && !in_gesture_)) {
+        return Time::min();
+    }
+    return needed_ ? last_edit_ + kRest : Time::max();
 }
 
 QualityScheduler::State QualityScheduler::state() const {

@@ -38,7 +38,9 @@ public:
     /// Nothing runs and the newest scene wants a solve.
     [[nodiscard]] bool should_start() const { return !running_ && needed_ && !cancelled_ && !failed_; }
     /// The running solve is of no more use.
-    [[nodiscard]] bool should_stop(Time now) const;
+    [[nodiscard]] bool should_stop(Time now) const { return stop_time() <= now; }
+    /// When should_stop() will become true if nothing else happens; Time::max() = never.
+    [[nodiscard]] Time stop_time() const;
     /// The running solve is of a document that is gone: its pictures must not be shown.
     [[nodiscard]] bool abandoned() const { return abandoned_; }
     [[nodiscard]] bool running() const { return running_ && !abandoned_; }

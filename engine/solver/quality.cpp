@@ -13,7 +13,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     QualitySettings out;
     const float unit = std::max(diagonal, 1e-6F) / 10.0F; // lengths below are for a room with a diagonal of 10 m
     const auto set = [&](float patch, float group, float threshold, unsigned link_rays, float base, float smallest,
-                         float contrast, float tolerance, unsigned rays, unsigned sun, unsigned sky) {
+                         float contrast, float tolerance, unsigned cut, unsigned rays, unsigned sun, unsigned sky) {
         out.hierarchy = {patch * unit, group * unit};
         out.refine.flux_threshold = threshold;
         out.refine.rays = link_rays;
@@ -21,6 +21,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         out.layers.smallest_edge = smallest * unit;
         out.layers.contrast = contrast;
         out.layers.gather.tolerance = tolerance;
+        out.layers.gather.max_cut = cut;
         out.layers.gather.rays = rays;
         out.layers.gather.sun_rays = sun;
         out.layers.gather.sky_rays = sky;
@@ -28,14 +29,14 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     double usual_error = 0.05;
     switch (quality) {
     case SolverSettings::Quality::Draft:
-        set(0.4F, 0.2F, 1e-3F, 4, 1.0F, 0.12F, 0.15F, 0.03F, 32, 4, 48);
+        set(0.4F, 0.2F, 1e-3F, 4, 1.0F, 0.12F, 0.15F, 0.05F, 96, 24, 4, 48);
         out.refine_rounds = 1;
         out.solver_tolerance = 1e-3;
         usual_error = 0.10;
         break;
-    case SolverSettings::Quality::Normal: set(0.2F, 0.12F, 2e-4F, 8, 0.5F, 0.03F, 0.06F, 0.01F, 96, 16, 192); break;
+    case SolverSettings::Quality::Normal: set(0.2F, 0.12F, 2e-4F, 8, 0.5F, 0.03F, 0.06F, 0.02F, 192, 64, 16, 192); break;
     case SolverSettings::Quality::Fine:
-        set(0.1F, 0.06F, 5e-5F, 16, 0.25F, 0.015F, 0.03F, 0.005F, 256, 32, 512);
+        set(0.1F, 0.06F, 5e-5F, 16, 0.25F, 0.015F, 0.03F, 0.008F, 400, 192, 32, 512);
         out.refine_rounds = 3;
         out.solver_tolerance = 1e-5;
         usual_error = 0.02;
@@ -55,6 +56,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     out.first_layers.max_vertices = 20'000;
     out.first_layers.smallest_edge = std::max(out.layers.smallest_edge, 0.25F * unit);
     out.first_layers.gather.tolerance = 0.05F;
+    out.first_layers.gather.max_cut = 64;
     out.first_layers.gather.rays = 16;
     out.first_layers.gather.sun_rays = 2;
     out.first_layers.gather.sky_rays = 24;

@@ -520,7 +520,7 @@ def openings(f, room):
     leaf, trim, knob = Part("White lacquer"), Part("White lacquer"), Part("Brass")
     z = S + 0.05
     # The leaf is let into the reveals and the threshold, so that no daylight leaks around it.
-    leaf.box(((a + b) / 2, top / 2, z + 0.02), (b - a + 0.01, top + 0.01, 0.04))
+    leaf.box(((a + b) / 2, (top + 0.005) / 2, z + 0.02), (b - a + 0.01, top + 0.005, 0.04))
     threshold = Part("Oak")
     threshold.polygon([(a, 0.0, z + 0.02), (b, 0.0, z + 0.02), (b, 0.0, S), (a, 0.0, S)])
     for y0, y1 in ((0.14, 0.92), (1.06, 1.92)):  # raised panels
@@ -721,7 +721,7 @@ def bookshelf(f, parent):
     jar.lathe([(0.0, 0.0), (0.045, 0.0), (0.045, 0.0), (0.07, 0.05), (0.075, 0.10), (0.06, 0.15), (0.035, 0.175), (0.035, 0.20),
                (0.035, 0.20), (0.0, 0.20)], 24)
     f.node("Jar", node, (0.30, levels[0] + t / 2, 0.0), mesh=f.mesh("Jar", jar))
-    basket = Part("Curtain linen")
+    basket = Part("Cushion linen")
     basket.cushion((0, 0.12, 0), (0.42, 0.24, 0.24), 0.03, 1)
     f.node("Basket", node, (-0.44, levels[0] + t / 2, 0.0), mesh=f.mesh("Basket", basket))
 

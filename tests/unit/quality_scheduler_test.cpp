@@ -103,6 +103,20 @@ TEST_F(Scheduler, WithinAGestureRestStopsTheStaleSolve) {
     EXPECT_EQ(wait(5000), "-") << "it is of the present scene now";
 }
 
+TEST_F(Scheduler, SaysAheadWhenRestEndsASolve) {
+    EXPECT_EQ(s.stop_time(), QualityScheduler::Time::max());
+    started();
+    EXPECT_EQ(s.stop_time(), QualityScheduler::Time::max());
+    wait(1000);
+    edit(true);
+    EXPECT_EQ(s.stop_time(), now() + QualityScheduler::kRest);
+    wait(100);
+    edit(true);
+    EXPECT_EQ(s.stop_time(), now() + QualityScheduler::kRest) << "put off";
+    s.on_gesture_end();
+    EXPECT_LE(s.stop_time(), now());
+}
+
 TEST_F(Scheduler, TheFirstEditAfterAGestureStopsTheStaleSolve) {
     started();
     EXPECT_EQ(edit(true), "-");

@@ -12,6 +12,7 @@ PropertiesPanel::PropertiesPanel(Document& document, QWidget* parent) : QScrollA
     setWidgetResizable(true);
     setFrameShape(QFrame::NoFrame);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    setMinimumWidth(310); // three number fields side by side with their label
     auto* content = new QWidget;
     auto* layout = new QVBoxLayout(content);
     layout->setContentsMargins(10, 8, 10, 8);
@@ -50,7 +51,6 @@ void PropertiesPanel::refresh() {
     for (Section* section : sections_) {
         section->refresh();
     }
-    setMinimumWidth(widget()->minimumSizeHint().width() + 2);
 }
 
 } // namespace atrium::ui

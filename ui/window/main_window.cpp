@@ -120,8 +120,10 @@ MainWindow::~MainWindow() {
     document_.undo_stack()->disconnect();
     document_.selection()->disconnect();
     const QList<QDockWidget*> docks = findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly);
+    // In place: taken out of the window first, it would have lost the GL context that its resources must be freed in.
+    delete viewport_;
+    viewport_ = nullptr;
     qDeleteAll(docks);
-    delete takeCentralWidget();
     delete files_;
     delete engine_;
 }
@@ -156,7 +158,7 @@ void MainWindow::make_docks() {
     tabifyDockWidget(jobs_dock, problems_dock);
     properties_dock->raise();
     setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
-    resizeDocks({tree_dock, properties_dock}, {260, 520}, Qt::Vertical);
+    resizeDocks({tree_dock, properties_dock}, {330, 450}, Qt::Vertical);
     resizeDocks({tree_dock, properties_dock}, {320, 320}, Qt::Horizontal);
 
     connect(tree_, &SceneTreePanel::activated, this, [this] { viewport_->frame_selection(); });

@@ -20,7 +20,8 @@ QToolButton* big_button(const QString& text, const QIcon& icon) {
     button->setIcon(icon);
     button->setIconSize({40, 40});
     button->setToolButtonStyle(Qt::ToolButtonTextUnderIcon);
-    button->setMinimumSize(136, 96);
+    button->setMinimumSize(140, 100);
+    button->setAutoRaise(false);
     button->setFocusPolicy(Qt::StrongFocus);
     return button;
 }
@@ -64,6 +65,7 @@ StartPage::StartPage(const Actions& actions, QWidget* parent) : QWidget(parent) 
     for (QToolButton* button : {sample, open, fresh}) {
         buttons->addWidget(button);
     }
+    buttons->addStretch(1);
     column->addLayout(buttons);
     column->addSpacing(8);
 

@@ -1,0 +1,429 @@
+#!/usr/bin/env python3
+"""Runs atrium-cli on small scenes and checks what scripts rely on. One argument: the group (a TestCase below)."""
+import json
+import os
+import signal
+import struct
+import subprocess
+import sys
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from support import CLI, ROOM, SHARED, CliTest  # noqa: E402
+
+FEATURES = ["particles", "caustic_textures", "octree", "refraction", "glossy", "sun", "sky", "textures", "direct_layer",
+            "specular_view"]
+STATISTICS = {
+    "version": str, "scene": {"file": str, "nodes": int, "primitives": int, "triangles": int, "materials": int, "lights": int},
+    "threads": int, "seed": int, "mode": str, "quality": str, "features": {f: {"used": bool, "why": str} for f in FEATURES},
+    "time": {k: float for k in ("load", "build", "solve", "first_picture", "total")},
+    "phases": list, "iterations": int, "converged": bool, "residual": float, "error_estimate": float,
+    "elements": int, "clusters": int, "links": int, "rays": int, "particles_emitted": int, "particles_stored": int,
+    "caustic_textures": list,
+    "memory": {k: int for k in ("elements", "links", "particles", "octree", "caustic_textures", "layers", "ray_scene", "peak_rss")},
+    "energy": {k: float for k in ("emitted", "absorbed", "escaped", "defect")},
+}
+POINTS = "x,y,z,nx,ny,nz\n2,0,1.5,0,1,0\n0.5,0,0.5,0,1,0\n2,1.2,0,0,0,1\n"
+
+
+class Requests(CliTest):
+    def test_help_and_version(self):
+        self.assertIn("solve", self.run_cli("--help").stdout)
+        self.assertRegex(self.run_cli("--version").stdout, r"^atrium-cli \d+\.\d+\.\d+\n$")
+        for name in ("info", "check", "solve", "measure", "render", "compare", "convert"):
+            self.assertIn("FILE" if name not in ("compare", "convert") else name, self.run_cli(name, "--help").stdout)
+
+    def test_wrong_requests(self):
+        self.refused()
+        self.refused("nonsense")
+        self.refused("solve")
+        self.refused("info", self.room, "--no-such-option")
+        for text in ("--quality=best", "--threads=-1", "--threads=many", "--error=0", "--error=2", "--time=-1", "--seed=x"):
+            self.refused("solve", self.room, text)
+
+    def test_paper_mode_is_refused_in_words(self):
+        self.refused("solve", self.room, "--mode", "paper", says=["--mode paper", "not in this version"])
+
+    def test_missing_file_is_named(self):
+        for command in ("info", "check", "solve"):
+            self.refused(command, self.path("nowhere.glb"), says=["nowhere.glb"])
+
+
+class InfoAndCheck(CliTest):
+    def test_info(self):
+        done = self.run_cli("info", self.room)
+        self.assertIn("4.000 x 2.500 x 3.000 m", done.stdout)
+        self.assertEqual(done.stderr, "")
+        facts = json.loads(self.run_cli("info", self.room, "--json").stdout)
+        self.assertEqual(facts["scene"]["nodes"], 4)
+        self.assertEqual(facts["scene"]["triangles"], 14)
+        self.assertEqual(facts["scene"]["primitives"], 2)
+        self.assertEqual(facts["camera_names"], ["Front", "Side"])
+        self.assertFalse(facts["has_solution"])
+        self.assertLessEqual(set(FEATURES), set(facts["features"]))
+        for name in ("sun", "sky", "refraction", "textures"):
+            self.assertFalse(facts["features"][name]["used"], name)
+            self.assertTrue(facts["features"][name]["why"])
+
+    def test_check_passes(self):
+        self.run_cli("check", self.room)
+        result = json.loads(self.run_cli("check", self.room, "--json").stdout)
+        self.assertTrue(result["readable"])
+        self.assertEqual(result["errors"], 0)
+
+    def test_damaged_files(self):
+        text = self.read("room.gltf")
+        for name, damaged in (("cut.gltf", text[:len(text) // 2]), ("empty.gltf", ""), ("number.gltf", "42"),
+                              ("range.gltf", text.replace('"bufferView": 0', '"bufferView": 7')),
+                              ("cut.glb", "glTF")):
+            path = self.write(name, damaged)
+            self.refused("check", path, says=[name])
+            self.refused("solve", path, says=[name])
+            done = self.run_cli("check", path, "--json", status=1)
+            result = json.loads(done.stdout)
+            self.assertGreaterEqual(result["errors"], 1)
+            self.assertEqual(result["problems"][0]["severity"], "error")
+
+
+class Solve(CliTest):
+    def compare_keys(self, value, expected, where="statistics"):
+        for name, kind in expected.items():
+            self.assertIn(name, value, where)
+            if isinstance(kind, dict):
+                self.compare_keys(value[name], kind, where + "." + name)
+            else:
+                kinds = (int, float) if kind is float else (kind,)
+                self.assertIsInstance(value[name], kinds, where + "." + name)
+                self.assertFalse(kind is int and isinstance(value[name], bool), where + "." + name)
+
+    def test_statistics_and_silence(self):
+        done = self.run_cli("solve", self.room, "--stats", self.path("s.json"), "--quality", "draft", "--seed", "7", "--threads", "2")
+        self.assertEqual((done.stdout, done.stderr), ("", ""))
+        s = json.loads(self.read("s.json"))
+        self.compare_keys(s, STATISTICS)
+        self.assertEqual((s["seed"], s["mode"], s["quality"]), (7, "default", "draft"))
+        self.assertTrue(s["converged"])
+        for name in ("elements", "links", "rays"):
+            self.assertGreater(s[name], 0, name)
+        self.assertAlmostEqual(s["energy"]["emitted"], 3141.59, delta=3.2)  # pi x 1000 cd/m2 x 1 m2
+        # What was not used is zero everywhere.
+        self.assertFalse(s["features"]["particles"]["used"])
+        for figure in (s["particles_emitted"], s["particles_stored"], s["memory"]["particles"], s["memory"]["octree"],
+                       s["memory"]["caustic_textures"]):
+            self.assertEqual(figure, 0)
+        self.assertEqual(s["caustic_textures"], [])
+        for phase in s["phases"]:
+            self.assertLessEqual({"name", "seconds", "share"}, set(phase))
+        self.assertGreater(s["time"]["total"], 0)
+        self.assertGreater(s["memory"]["peak_rss"], 1 << 20)
+
+    def test_statistics_to_standard_output(self):
+        self.compare_keys(json.loads(self.run_cli("solve", self.room, "--quality", "draft", "--stats", "-").stdout), STATISTICS)
+
+    def test_project_is_glb_and_is_not_solved_again(self):
+        project = self.path("room.atrium")
+        self.run_cli("solve", self.room, "-o", project, "--quality", "normal")
+        with open(project, "rb") as f:
+            magic, version, _, size, kind = struct.unpack("<4sII I4s", f.read(20))
+            document = json.loads(f.read(size))
+        self.assertEqual((magic, version, kind), (b"glTF", 2, b"JSON"))
+        self.assertFalse([e for e in document.get("extensionsRequired", []) if e.startswith("ATRIUM")])
+        self.assertTrue(json.loads(self.run_cli("info", project, "--json").stdout)["has_solution"])
+
+        def reused(*options):
+            return json.loads(self.run_cli("solve", project, "--stats", "-", *options).stdout)["solution_reused"]
+
+        self.assertTrue(reused())
+        self.assertTrue(reused("--quality", "draft"))
+        self.assertTrue(reused("--error", "1"))
+        self.assertFalse(reused("--seed", "99"))
+        self.assertFalse(reused("--quality", "fine"))
+
+    def test_wrong_outputs_are_refused_before_solving(self):
+        start = time.monotonic()
+        self.refused("solve", self.room, "-o", self.path("room.glb"), says=[".atrium"])
+        self.refused("solve", self.room, "-o", self.path("no/such/folder/room.atrium"), says=["folder"])
+        self.refused("solve", self.room, "--stats", self.path("no/such/folder/s.json"), says=["folder"])
+        self.assertLess(time.monotonic() - start, 10)
+        self.assertEqual(os.listdir(self.folder), ["room.gltf"])
+
+    def test_progress_goes_to_standard_error(self):
+        done = self.run_cli("solve", self.room, "--quality", "draft", "--progress")
+        self.assertEqual(done.stdout, "")
+        self.assertIn("progress:", done.stderr)
+
+    def test_curve(self):
+        points = self.write("p.csv", POINTS)
+        self.run_cli("measure", self.room, "--points", points, "-o", self.path("reference.csv"))
+        self.run_cli("solve", self.room, "--curve", self.path("c.csv"), "--reference", self.path("reference.csv"))
+        rows = self.rows(self.read("c.csv"))
+        self.assertEqual(list(rows[0]), ["seconds", "final", "elements", "links", "error_estimate", "rel_rmse"])
+        self.assertEqual(rows[-1]["final"], 1)
+        self.assertLess(rows[-1]["rel_rmse"], 1e-6)  # the same solve as the reference; the file has the digits of a float
+        self.refused("solve", self.room, "--curve", self.path("c.csv"), "--reference", points, says=["column E"])
+
+
+class Stopping(CliTest):
+    def test_time_limit(self):
+        done = self.run_cli("solve", self.room, "--time", "0.001", "--stats", self.path("s.json"), status=2)
+        self.assertIn("stopped", done.stderr)
+        s = json.loads(self.read("s.json"))
+        self.assertTrue(s["stopped"])
+        self.assertFalse(s["converged"])
+
+    def test_signals(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            name = "s%d.json" % number
+            process = subprocess.Popen([CLI, "solve", ROOM, "--quality", "fine", "--stats", self.path(name)],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            time.sleep(1.0)
+            self.assertIsNone(process.poll(), "finished before the signal")
+            process.send_signal(number)
+            started = time.monotonic()
+            out, _ = process.communicate(timeout=60)
+            self.assertEqual((process.returncode, out), (2, b""))
+            self.assertLess(time.monotonic() - started, 20)
+            self.assertTrue(json.loads(self.read(name))["stopped"])
+
+
+class Measure(CliTest):
+    def measure(self, points, *options):
+        return self.rows(self.run_cli("measure", self.room, "--points", self.write("p.csv", points), *options).stdout)
+
+    def test_output(self):
+        text = self.run_cli("measure", self.room, "--points", self.write("p.csv", POINTS), "--quality", "draft").stdout
+        self.assertEqual(text.splitlines()[0], "x,y,z,nx,ny,nz,E_r,E_g,E_b,E,stderr,on_surface")
+        rows = self.rows(text)
+        self.assertEqual(len(rows), 3)
+        for row in rows:
+            self.assertEqual(row["on_surface"], 1)
+            self.assertGreaterEqual(row["stderr"], 0)
+            self.assertAlmostEqual(row["E"], 0.2126 * row["E_r"] + 0.7152 * row["E_g"] + 0.0722 * row["E_b"], delta=1e-3 * row["E"])
+        self.assertGreater(rows[0]["E"], rows[1]["E"])  # under the lamp and in the corner
+        # Direct light under the middle of a 1 x 1 m lamp of 1000 cd/m2 at 2.49 m is 148 lx; bounces add less than as much.
+        self.assertGreater(rows[0]["E"], 148)
+        self.assertLess(rows[0]["E"], 450)
+
+    def test_where_points_lie(self):
+        points = "x,y,z,nx,ny,nz\n2,0.009,1.5,0,1,0\n2,0.011,1.5,0,1,0\n2,0,1.5,0,-1,0\n2,1,1.5,0,1,0\n"
+        self.assertEqual([r["on_surface"] for r in self.measure(points)], [1, 0, 0, 0])
+        self.refused("measure", self.room, "--points", self.path("p.csv"), "--on-surface", says=["p.csv", "line 3", "1 cm"])
+        self.assertEqual([r["on_surface"] for r in self.measure(points, "--free")], [0, 0, 0, 0])
+
+    def test_surface_and_free_agree(self):
+        surface = self.measure(POINTS)
+        free = self.measure(POINTS.replace("2,0,1.5", "2,0.001,1.5").replace("0.5,0,0.5", "0.5,0.001,0.5"), "--free")
+        for a, b in zip(surface[:2], free[:2]):
+            self.assertAlmostEqual(a["E"] / b["E"], 1.0, delta=0.08)
+
+    def test_forgiving_csv(self):
+        plain = self.measure(POINTS)
+        dressed = "\ufeff nx , ny,nz, label, x,y, z \r\n\r\n" + "".join(
+            " 0 , +1 ,0, a, %s \r\n" % p for p in ("2, 0.0 , 1.5e0", "0.5,0,.5"))
+        self.assertEqual(self.measure(dressed), plain[:2])
+
+    def test_bad_csv_is_reported_by_line(self):
+        for points, line in (("x,y,z,nx,ny,nz\n1,0,1,0,1,0\n1,0,1,0,1\n", "line 3"), ("x,y,z,nx,ny,nz\n\n1,0,a,0,1,0\n", "line 3"),
+                             ("x,y,z,nx,ny,nz\n1,0,1,0,0,0\n", "line 2"), ("x,y,z,nx,ny,nz\n1,0,nan,0,1,0\n", "line 2"),
+                             ("x,y,z,nx,ny,nz\n1,0,inf,0,1,0\n", "line 2"), ("x,y,z\n1,0,1\n", "line 1"),
+                             ("x,y,z,nx,ny,nz\n1,5,0,1,0,1,0,2\n", "line 2"), ("", "empty")):
+            self.refused("measure", self.room, "--points", self.write("bad.csv", points), says=["bad.csv", line])
+        self.refused("measure", self.room, "--points", self.path("none.csv"), says=["none.csv"])
+
+    def test_no_points_give_a_header(self):
+        self.assertEqual(self.measure("x,y,z,nx,ny,nz\n"), [])
+
+    def test_threads_and_locale_change_nothing(self):
+        points = self.write("p.csv", POINTS)
+        one = self.run_cli("measure", self.room, "--points", points, "--threads", "1").stdout
+        self.assertEqual(self.run_cli("measure", self.room, "--points", points, "--threads", "3").stdout, one)
+        self.assertEqual(self.run_cli("measure", self.room, "--points", points, env={"LC_ALL": "de_DE.UTF-8"}).stdout, one)
+
+    def test_project_answers_from_its_layers(self):
+        project = self.path("room.atrium")
+        self.run_cli("solve", self.room, "-o", project)
+        points = self.write("p.csv", POINTS)
+        fresh = self.run_cli("measure", self.room, "--points", points, "--on-surface").stdout
+        stored = self.run_cli("measure", project, "--points", points, "--on-surface", "--stats", self.path("s.json")).stdout
+        self.assertTrue(json.loads(self.read("s.json"))["solution_reused"])
+        for a, b in zip(self.rows(fresh), self.rows(stored)):
+            self.assertAlmostEqual(a["E"] / b["E"], 1.0, delta=1e-3)
+
+
+class Render(CliTest):
+    def test_png_and_exr(self):
+        self.run_cli("render", self.room, "-o", self.path("a.png"), "--size", "64x48", "--quality", "draft")
+        with open(self.path("a.png"), "rb") as f:
+            head = f.read(24)
+        self.assertEqual((head[:8], struct.unpack(">II", head[16:])), (b"\x89PNG\r\n\x1a\n", (64, 48)))
+        self.run_cli("render", self.room, "-o", self.path("a.exr"), "--size", "64x48", "--quality", "draft", "--camera", "Side")
+        with open(self.path("a.exr"), "rb") as f:
+            self.assertEqual(f.read(4), b"\x76\x2f\x31\x01")
+
+    def test_cameras(self):
+        size = ("--size", "48x32", "--quality", "draft")
+        for name, options in (("first.png", ()), ("zero.png", ("--camera", "0")), ("front.png", ("--camera", "Front")),
+                              ("side.png", ("--camera", "1"))):
+            self.run_cli("render", self.room, "-o", self.path(name), *size, *options)
+        data = {}
+        for name in ("first.png", "zero.png", "front.png", "side.png"):
+            with open(self.path(name), "rb") as f:
+                data[name] = f.read()
+        self.assertEqual(data["first.png"], data["zero.png"])
+        self.assertEqual(data["first.png"], data["front.png"])
+        self.assertNotEqual(data["first.png"], data["side.png"])
+
+    def test_exposure_brightens_png_only(self):
+        size = ("--size", "48x32", "--quality", "draft")
+        self.run_cli("render", self.room, "-o", self.path("a.png"), *size)
+        self.run_cli("render", self.room, "-o", self.path("b.png"), *size, "--exposure", "2")
+        bias = json.loads(self.run_cli("compare", self.path("b.png"), self.path("a.png"), "--json").stdout)["mean_relative_bias"]
+        self.assertGreater(bias, 0.2)
+        self.run_cli("render", self.room, "-o", self.path("a.exr"), *size)
+        self.run_cli("render", self.room, "-o", self.path("b.exr"), *size, "--exposure", "2")
+        self.assertEqual(json.loads(self.run_cli("compare", self.path("b.exr"), self.path("a.exr"), "--json").stdout)["relMSE"], 0)
+
+    def test_layers(self):
+        size = ("--size", "32x32", "--quality", "draft")
+        self.run_cli("render", self.room, "-o", self.path("a.exr"), *size)
+        self.run_cli("render", self.room, "-o", self.path("b.exr"), *size, "--layers", "direct,diffuse,caustic,specular")
+        self.assertEqual(json.loads(self.run_cli("compare", self.path("a.exr"), self.path("b.exr"), "--json").stdout)["relMSE"], 0)
+        self.refused("render", self.room, "-o", self.path("c.exr"), "--layers", "diffuse,shiny", says=["shiny"])
+        self.refused("render", self.room, "-o", self.path("c.exr"), "--layers", "direct", says=["diffuse"])
+
+    def test_wrong_requests(self):
+        self.refused("render", self.room, says=["-o"])
+        self.refused("render", self.room, "-o", self.path("a.gif"), says=[".exr", ".png"])
+        self.refused("render", self.room, "-o", self.path("a.png"), "--camera", "Nobody", says=["Nobody"])
+        self.refused("render", self.room, "-o", self.path("a.png"), "--camera", "9")
+        for size in ("64", "64x", "0x64", "64x-1", "64x48x2", "99999x10", "axb"):
+            self.refused("render", self.room, "-o", self.path("a.png"), "--size=" + size, says=[size])
+
+
+class Compare(CliTest):
+    def figures(self, a, b):
+        return json.loads(self.run_cli("compare", self.path(a), self.path(b), "--json").stdout)
+
+    def measurement(self, name, factor=1.0, noise=()):
+        lines = ["x,y,z,nx,ny,nz,E_r,E_g,E_b,E,stderr,on_surface"]
+        for i in range(100):
+            e = (100 + i) * factor + (noise[i % len(noise)] if noise else 0)
+            lines.append("%d,0,0,0,1,0,%r,%r,%r,%r,0,1" % (i, e, e, e, e))
+        self.write(name, "\n".join(lines) + "\n")
+
+    def test_measurements(self):
+        self.measurement("a.csv")
+        self.measurement("b.csv", 1.1)
+        same = self.figures("a.csv", "a.csv")
+        self.assertEqual({k: same[k] for k in ("relMSE", "relRMSE", "mean_relative_bias", "p95", "p99")},
+                         {"relMSE": 0, "relRMSE": 0, "mean_relative_bias": 0, "p95": 0, "p99": 0})
+        self.assertNotIn("FLIP", same)
+        more = self.figures("b.csv", "a.csv")
+        self.assertAlmostEqual(more["mean_relative_bias"], 0.1, delta=1e-9)
+        self.assertAlmostEqual(more["p95"], 0.1, delta=0.002)
+        self.assertAlmostEqual(more["relRMSE"], 0.1, delta=0.005)
+        self.assertAlmostEqual(more["relMSE"], 0.01, delta=1e-4)
+        self.measurement("c.csv", 1.0, (5, -5))
+        self.assertAlmostEqual(self.figures("c.csv", "a.csv")["mean_relative_bias"], 0.0, delta=1e-12)
+        self.assertIn("relRMSE", self.run_cli("compare", self.path("b.csv"), self.path("a.csv")).stdout)
+
+    def test_images(self):
+        for name, exposure in (("a.png", "0"), ("b.png", "1")):
+            self.run_cli("render", self.room, "-o", self.path(name), "--size", "64x48", "--quality", "draft", "--exposure", exposure)
+        self.assertEqual(self.figures("a.png", "a.png")["FLIP"], 0)
+        different = self.figures("b.png", "a.png")
+        self.assertTrue(0.01 < different["FLIP"] < 1, different)
+        self.run_cli("render", self.room, "-o", self.path("c.png"), "--size", "48x48", "--quality", "draft")
+        self.refused("compare", self.path("a.png"), self.path("c.png"), says=["48x48", "64x48"])
+
+    def test_projects(self):
+        self.run_cli("solve", self.room, "-o", self.path("a.atrium"), "--quality", "draft")
+        self.run_cli("solve", self.room, "-o", self.path("b.atrium"), "--quality", "normal")
+        self.assertEqual(self.figures("a.atrium", "a.atrium")["relMSE"], 0)
+        figures = self.figures("a.atrium", "b.atrium")
+        self.assertGreater(figures["values"], 1000)
+        self.assertLess(figures["relRMSE"], 0.25)
+
+    def test_unlike_things(self):
+        self.measurement("a.csv")
+        self.measurement("b.csv")
+        self.refused("compare", self.path("a.csv"), self.room)
+        self.refused("compare", self.path("a.csv"), self.path("none.csv"), says=["none.csv"])
+        moved = self.read("b.csv").replace("5,0,0,0,1,0", "5,0,1,0,1,0", 1)
+        self.refused("compare", self.path("a.csv"), self.write("moved.csv", moved), says=["another point"])
+        self.run_cli("convert", self.room, self.path("unsolved.atrium"))
+        self.refused("compare", self.path("unsolved.atrium"), self.path("unsolved.atrium"), says=["no light"])
+
+
+class Convert(CliTest):
+    def names(self, path):
+        done = json.loads(self.run_cli("info", path, "--json").stdout)
+        return done["scene"]["nodes"], done["scene"]["triangles"], done["camera_names"], done["bounds"]
+
+    def test_round_trips(self):
+        expected = self.names(self.room)
+        previous = self.room
+        for name in ("a.glb", "b.gltf", "c.atrium", "d.glb"):
+            done = self.run_cli("convert", previous, self.path(name))
+            self.assertEqual((done.stdout, done.stderr), ("", ""))
+            self.assertEqual(self.names(self.path(name)), expected, name)
+            previous = self.path(name)
+
+    def test_same_scene_same_bytes(self):
+        self.run_cli("convert", self.room, self.path("a.glb"))
+        self.run_cli("convert", self.room, self.path("b.glb"))
+        with open(self.path("a.glb"), "rb") as a, open(self.path("b.glb"), "rb") as b:
+            self.assertEqual(a.read(), b.read())
+
+    def test_light_stays_in_projects(self):
+        self.run_cli("solve", self.room, "-o", self.path("a.atrium"), "--quality", "draft")
+        self.run_cli("convert", self.path("a.atrium"), self.path("b.atrium"))
+        self.run_cli("convert", self.path("a.atrium"), self.path("c.glb"))
+        for name, expected in (("b.atrium", True), ("c.glb", False)):
+            self.assertEqual(json.loads(self.run_cli("info", self.path(name), "--json").stdout)["has_solution"], expected, name)
+
+    def test_wrong_output(self):
+        self.refused("convert", self.room, self.path("a.obj"), says=[".gltf"])
+        self.refused("convert", self.room, self.path("no/folder/a.glb"), says=["folder"])
+
+
+class SunlitRoom(CliTest):
+    def test_facts(self):
+        facts = json.loads(self.run_cli("info", ROOM, "--json").stdout)
+        self.assertEqual([p for p in facts["problems"] if p["severity"] != "note"], [])
+        self.assertEqual(facts["camera_names"], ["From the door", "From the bookshelf"])
+        for name in ("sun", "sky", "textures", "transmittance", "specular_view"):
+            self.assertTrue(facts["features"][name]["used"], name)
+        with open(os.path.join(os.path.dirname(ROOM), "README.md"), encoding="utf-8") as f:
+            text = f.read()
+        self.assertIn("{:,} triangles drawn, {} nodes, {} materials".format(
+            facts["scene"]["triangles"], facts["scene"]["nodes"], facts["scene"]["materials"]), text)
+        self.assertEqual(self.run_cli("check", ROOM).stderr, "")
+
+
+class SharedScenes(CliTest):
+    def files(self, folder):
+        top = os.path.join(SHARED, "scenes", folder)
+        if not os.path.isdir(top):
+            print("skipped: %s is not there" % top)
+            sys.exit(77)
+        for here, _, names in sorted(os.walk(top)):
+            for name in sorted(names):
+                if name.endswith((".gltf", ".glb")):
+                    yield os.path.join(here, name)
+
+    def test_conformance_files_are_read(self):
+        for path in self.files("conformance"):
+            with self.subTest(path):
+                self.run_cli("info", path)
+
+    def test_broken_files_never_crash(self):
+        for path in self.files("broken"):
+            with self.subTest(path):
+                done = subprocess.run([CLI, "check", path], capture_output=True, timeout=60)
+                self.assertIn(done.returncode, (0, 1))
+
+
+if __name__ == "__main__":
+    unittest.main()
