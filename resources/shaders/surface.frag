@@ -30,6 +30,7 @@ uniform float u_probe_levels;
 uniform vec3 u_probe_centre; // all relative to the eye
 uniform vec3 u_room_min;
 uniform vec3 u_room_max;
+uniform vec3 u_filter; // what the mirror that one looks into leaves of the light
 uniform float u_exposure;
 uniform bool u_linear; // the probe keeps radiance
 
@@ -99,15 +100,17 @@ void main() {
         float tint = 1.0 - min(base.r, min(base.g, base.b));
         alpha = clamp(fresnel + 0.35 * tint + 0.04, 0.0, 1.0);
         radiance = (mirror * fresnel + base.rgb * 0.35 * tint * 0.18 / u_exposure) / alpha + emitted;
-    } else if (u_has_probe) {
+    } else {
         vec3 fresnel = rho + (vec3(1.0) - rho) * schlick * (1.0 - u_roughness);
-        vec3 mirror = emitted + fresnel * reflected(reflect(-eye, normal), sqrt(u_roughness));
+        // Until the probe is drawn a mirror is an even grey; its own irradiance would make it a bright wall.
+        vec3 seen = u_has_probe ? reflected(reflect(-eye, normal), sqrt(u_roughness)) : vec3(0.18 / u_exposure);
+        vec3 mirror = emitted + fresnel * seen;
         radiance = mix(mirror, radiance, smoothstep(0.35, 0.9, u_roughness));
     }
 #endif
     if (u_unlit_material) {
         o_color = u_linear ? vec4(base.rgb / u_exposure, alpha) : vec4(encode(base.rgb), alpha);
     } else {
-        o_color = shown(radiance, alpha);
+        o_color = shown(radiance * u_filter, alpha);
     }
 }

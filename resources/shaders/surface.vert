@@ -15,6 +15,7 @@ uniform vec3 u_base_row0; // texture transforms (KHR_texture_transform), two row
 uniform vec3 u_base_row1;
 uniform vec3 u_emissive_row0;
 uniform vec3 u_emissive_row1;
+uniform vec4 u_clip; // plane that a mirror's picture is cut at, relative to the eye
 uniform int u_base_set;
 uniform int u_emissive_set;
 
@@ -29,6 +30,7 @@ out vec3 v_back;
 void main() {
     gl_Position = u_mvp * vec4(a_position, 1.0);
     v_position = (u_model * vec4(a_position, 1.0)).xyz;
+    gl_ClipDistance[0] = dot(u_clip, vec4(v_position, 1.0));
     v_normal = u_normal * a_normal.xyz;
     vec3 base_uv = vec3(u_base_set == 0 ? a_uv0 : a_uv1, 1.0);
     vec3 emissive_uv = vec3(u_emissive_set == 0 ? a_uv0 : a_uv1, 1.0);

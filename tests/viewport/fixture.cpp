@@ -72,7 +72,10 @@ void ViewportFixture::look(const dvec3& eye, const dvec3& target) {
 
 QImage ViewportFixture::grab() {
     settle();
-    return view_->grabFramebuffer().convertToFormat(QImage::Format_RGB32);
+    // One pixel per logical pixel, whatever the screen's ratio.
+    return view_->grabFramebuffer()
+        .convertToFormat(QImage::Format_RGB32)
+        .scaled(view_->size(), Qt::IgnoreAspectRatio, Qt::FastTransformation);
 }
 
 QPoint ViewportFixture::at(const dvec3& world) const {

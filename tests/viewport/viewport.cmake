@@ -8,7 +8,11 @@ if(TARGET atrium_ui)
   target_precompile_headers(viewport_tests REUSE_FROM atrium_ui)
   find_program(XVFB_RUN xvfb-run)
   if(XVFB_RUN)
-    add_test(NAME viewport COMMAND ${XVFB_RUN} -a -s "-screen 0 1280x800x24" $<TARGET_FILE:viewport_tests>)
-    set_tests_properties(viewport PROPERTIES TIMEOUT 300 ENVIRONMENT "QT_QPA_PLATFORM=xcb;LC_ALL=C.UTF-8")
+    foreach(scale 1 1.5)
+      add_test(NAME viewport_scale_${scale}
+               COMMAND ${XVFB_RUN} -a -s "-screen 0 1280x800x24" $<TARGET_FILE:viewport_tests>)
+      set_tests_properties(viewport_scale_${scale} PROPERTIES TIMEOUT 300 RUN_SERIAL TRUE
+        ENVIRONMENT "QT_QPA_PLATFORM=xcb;LC_ALL=C.UTF-8;QT_SCALE_FACTOR=${scale}")
+    endforeach()
   endif()
 endif()

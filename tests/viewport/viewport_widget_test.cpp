@@ -227,8 +227,24 @@ TEST_F(Viewport, MirrorsShowTheRoomAndFollowIt) {
     // From here the mirror's middle shows the red wall on the left at z = 2.2.
     open(scene, lit(scene), {1.5, 1.5, 1.0}, {0.0, 1.5, -2.45});
     QTest::qWait(1500);
-    const QRgb red = grab().pixel(QPoint(320, 240));
+    const QImage picture = grab();
+    const QRgb red = picture.pixel(QPoint(320, 240));
     EXPECT_GT(qRed(red), 2 * qGreen(red));
+    // A flat mirror is exact: radiance of the wall times the mirror's reflectance.
+    expect_color(red, display_color(Rgb(0.95F) * Rgb(0.7F, 0.2F, 0.15F) * kIrradiance * kInvPi, exposure_scale(150.0, 0.0F)),
+                 "the red wall in the mirror");
+    // The cabinet stands in front of the mirror's plane and is seen where its mirror image lies.
+    look({-1.0, 1.5, 1.5}, {0.0, 1.2, -2.45});
+    const dvec3 top(0.3, 0.8, 0.2);
+    const dvec3 image(top.x, top.y, -2.45 - (top.z + 2.45));
+    const dvec3 eye(-1.0, 1.5, 1.5);
+    const dvec3 on_mirror = eye + (image - eye) * ((-2.45 - eye.z) / (image.z - eye.z));
+    ASSERT_LT(std::abs(on_mirror.x), 0.45);
+    ASSERT_LT(std::abs(on_mirror.y - 1.5), 0.45);
+    expect_color(grab().pixel(at(on_mirror)),
+                 display_color(Rgb(0.95F) * Rgb(0.6F, 0.6F, 0.65F) * kIrradiance * kInvPi, exposure_scale(150.0, 0.0F)),
+                 "the cabinet's top in the mirror");
+    look({1.5, 1.5, 1.0}, {0.0, 1.5, -2.45});
     Material green;
     green.base_color = Rgb(0.1F, 0.7F, 0.1F);
     const Scene& now = document_->scene();

@@ -10,6 +10,9 @@ namespace {
 constexpr int kProbeSize = 128;
 constexpr int kProbeLevels = 6;
 
+/// Flat mirrors with a true picture in one frame; each costs a second drawing of the scene.
+constexpr int kMirrors = 2;
+
 struct Vertex {
     vec3 position;
     std::uint32_t normal = 0; ///< 2_10_10_10, signed
@@ -27,20 +30,37 @@ std::uint32_t pack_normal(const vec3& n) {
 
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
-/// True when a box lies wholly outside one side of the view.
-bool out_of_sight(const Box3& box, const mat4& mvp) {
+/// True when a box lies wholly outside one side of the view's window (x and y from, x and y to; -1 to 1 is all).
+bool out_of_sight(const Box3& box, const mat4& mvp, const vec4& window = vec4(-1.0F, -1.0F, 1.0F, 1.0F)) {
     std::array<int, 6> outside{};
     for (int i = 0; i < 8; ++i) {
         const vec4 p = mvp * vec4((i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
                                   (i & 4) != 0 ? box.max.z : box.min.z, 1.0F);
-        outside[0] += p.x < -p.w;
-        outside[1] += p.x > p.w;
-        outside[2] += p.y < -p.w;
-        outside[3] += p.y > p.w;
+        outside[0] += p.x < window.x * p.w;
+        outside[1] += p.x > window.z * p.w;
+        outside[2] += p.y < window.y * p.w;
+        outside[3] += p.y > window.w * p.w;
         outside[4] += p.z < -p.w;
         outside[5] += p.z > p.w;
     }
     return std::find(outside.begin(), outside.end(), 8) != outside.end();
+}
+
+/// The part of the view that a box can cover.
+vec4 window_of(const Box3& box, const mat4& mvp) {
+    vec4 window(1.0F, 1.0F, -1.0F, -1.0F);
+    for (int i = 0; i < 8; ++i) {
+        const vec4 p = mvp * vec4((i & 1) != 0 ? box.max.x : box.min.x, (i & 2) != 0 ? box.max.y : box.min.y,
+                                  (i & 4) != 0 ? box.max.z : box.min.z, 1.0F);
+        if (p.w < 1e-4F) {
+            return vec4(-1.0F, -1.0F, 1.0F, 1.0F);
+        }
+        window.x = std::min(window.x, p.x / p.w);
+        window.y = std::min(window.y, p.y / p.w);
+        window.z = std::max(window.z, p.x / p.w);
+        window.w = std::max(window.w, p.y / p.w);
+    }
+    return glm::clamp(window, vec4(-1.0F), vec4(1.0F));
 }
 
 bool is_glass(const Material& m) {
@@ -144,6 +164,8 @@ void GpuScene::begin(unsigned variant, const DrawView& from) {
     gl.glUniform1i(p.at("u_emissive_texture"), 1);
     gl.glUniform1i(p.at("u_probe"), 2);
     gl.glUniform1f(p.at("u_exposure"), from.exposure);
+    gl.glUniform4f(p.at("u_clip"), from.clip.x, from.clip.y, from.clip.z, from.clip.w);
+    gl.glUniform3f(p.at("u_filter"), from.filter.r, from.filter.g, from.filter.b);
     gl.glUniform1i(p.at("u_linear"), from.linear ? 1 : 0);
     gl.glUniform1i(p.at("u_has_probe"), probe ? 1 : 0);
     gl.glUniform1f(p.at("u_probe_levels"), float(kProbeLevels));
@@ -207,7 +229,16 @@ const GpuScene::Geometry& GpuScene::geometry_of(const ViewItem& item) {
         v.uv0 = i < mesh.texcoords0.size() ? mesh.texcoords0[i] : vec2(0.0F);
         v.uv1 = i < mesh.texcoords1.size() ? mesh.texcoords1[i] : vec2(0.0F);
         v.color = i < mesh.colors.size() ? mesh.colors[i] : vec3(1.0F);
-        g.bounds.add(v.position);
+    }
+    if (mesh.indices.size() >= 3 && mesh.normals.size() == mesh.positions.size()) {
+        const vec3 origin = mesh.positions[mesh.indices[0]];
+        g.normal = mesh.normals[mesh.indices[0]];
+        const float tolerance = 1e-4F * item.bvh->bounds().diagonal();
+        g.flat = true;
+        for (std::size_t i = 0; i < mesh.positions.size() && g.flat; ++i) {
+            g.flat = std::abs(glm::dot(mesh.positions[i] - origin, g.normal)) <= tolerance &&
+                     glm::dot(mesh.normals[i], g.normal) > 0.9999F;
+        }
     }
     g.mesh = item.mesh;
     g.count = int(mesh.indices.size());
@@ -282,9 +313,9 @@ void GpuScene::bind(const ViewItem& item, const Geometry& geometry, const Lighti
     }
 }
 
-void GpuScene::set_sides(const ViewItem& item) {
+void GpuScene::set_sides(const ViewItem& item, bool reflected) {
     // glTF: a mirroring transform turns the winding round, so that the front stays the front.
-    gl_->glFrontFace(item.mirrored ? GL_CW : GL_CCW);
+    gl_->glFrontFace(item.mirrored != reflected ? GL_CW : GL_CCW);
     if (item.material->double_sided) {
         gl_->glDisable(GL_CULL_FACE);
     } else {
@@ -300,7 +331,7 @@ void GpuScene::draw_surface(const ViewItem& item, unsigned variant, const Scene&
     const Geometry& geometry = geometry_of(item);
     const Lighting* lighting = lighting_of(item);
     Gl& gl = *gl_;
-    set_sides(item);
+    set_sides(item, from.reflected);
     const mat4 model(relative_to_eye(item, from.eye));
     const mat3 normal = item.flattened ? mat3(model) : mat3(glm::transpose(glm::inverse(dmat3(item.world))));
     gl.glUniformMatrix4fv(at("u_mvp"), 1, GL_FALSE, &mvp[0][0]);
@@ -360,7 +391,7 @@ int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& fr
     for (const ViewItem& item : view.items()) {
         const mat4 mvp(view_projection * relative_to_eye(item, from.eye));
         const unsigned variant = variant_of(item);
-        if (out_of_sight(item.bvh->bounds(), mvp) || !compile(variant)) {
+        if (out_of_sight(item.bvh->bounds(), mvp, from.window) || !compile(variant)) {
             continue;
         }
         const dvec3 centre(item.world * dvec4(dvec3(item.bvh->bounds().centre()), 1.0));
@@ -383,6 +414,17 @@ int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& fr
         }
     };
     draw_all(opaque);
+    if (!from.linear && !from.reflected) {
+        int mirrors = 0;
+        for (const Visible& v : opaque) {
+            const Geometry& geometry = geometry_of(*v.item);
+            if (classify(*v.item->material) == MaterialKind::Mirror && geometry.flat && !v.item->flattened &&
+                v.item->layer && mirrors < kMirrors) {
+                draw_mirror(*v.item, view, scene, from, v.mvp, ++mirrors);
+                bound = kVariants;
+            }
+        }
+    }
     if (!blended.empty()) {
         gl.glEnable(GL_BLEND);
         gl.glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
@@ -396,6 +438,71 @@ int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& fr
     gl.glBindVertexArray(0);
     gl.glUseProgram(0);
     return int(opaque.size() + blended.size());
+}
+
+void GpuScene::draw_flat(const ViewItem& item, const mat4& mvp, const vec4& color) {
+    mask_->bind();
+    mask_->setUniformValue("u_color", QVector4D(color.r, color.g, color.b, color.a));
+    gl_->glUniformMatrix4fv(mask_->uniformLocation("u_mvp"), 1, GL_FALSE, &mvp[0][0]);
+    set_sides(item, false);
+    const Geometry& geometry = geometry_of(item);
+    bind(item, geometry, lighting_of(item));
+    gl_->glDrawElements(GL_TRIANGLES, geometry.count, GL_UNSIGNED_INT, nullptr);
+    mask_->release();
+}
+
+void GpuScene::draw_mirror(const ViewItem& item, const ViewScene& view, const Scene& scene, const DrawView& from,
+                           const mat4& mvp, int stencil) {
+    const Geometry& geometry = geometry_of(item);
+    const dvec3 point(item.world * dvec4(dvec3(item.mesh->positions[item.mesh->indices[0]]), 1.0));
+    dvec3 normal = glm::normalize(glm::transpose(glm::inverse(dmat3(item.world))) * dvec3(geometry.normal));
+    const double height = glm::dot(from.eye - point, normal);
+    if (height < 0.0) {
+        if (!item.material->double_sided) {
+            return;
+        }
+        normal = -normal;
+    }
+    Gl& gl = *gl_;
+    const vec4 background(from.background, 1.0F);
+    // Where the mirror is seen ...
+    gl.glEnable(GL_STENCIL_TEST);
+    gl.glStencilFunc(GL_ALWAYS, stencil, 0xFF);
+    gl.glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    gl.glDepthFunc(GL_LEQUAL);
+    gl.glEnable(GL_POLYGON_OFFSET_FILL); // another program need not give the very same depth
+    gl.glPolygonOffset(-1.0F, -1.0F);
+    draw_flat(item, mvp, background);
+    gl.glDisable(GL_POLYGON_OFFSET_FILL);
+    // ... nothing is near any more ...
+    gl.glStencilFunc(GL_EQUAL, stencil, 0xFF);
+    gl.glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    gl.glDepthFunc(GL_ALWAYS);
+    gl.glDepthRange(1.0, 1.0);
+    draw_flat(item, mvp, background);
+    gl.glDepthRange(0.0, 1.0);
+    gl.glDepthFunc(GL_LESS);
+    // ... so that the room shows, seen from behind the mirror ...
+    DrawView behind = from;
+    behind.reflected = true;
+    const dmat3 reflection = dmat3(1.0) - 2.0 * glm::outerProduct(normal, normal);
+    behind.rotation = from.rotation * dmat4(reflection);
+    behind.eye = from.eye - normal * (2.0 * glm::dot(from.eye - point, normal));
+    // A millimetre in front, so that the mirror does not hide what it shows.
+    behind.clip = vec4(vec3(normal), float(glm::dot(behind.eye - point, normal) - 0.001));
+    behind.window = window_of(item.bvh->bounds(), mvp);
+    behind.filter = glm::clamp(item.material->base_color, Rgb(0.0F), Rgb(1.0F));
+    gl.glEnable(GL_CLIP_DISTANCE0);
+    draw(view, scene, behind);
+    gl.glDisable(GL_CLIP_DISTANCE0);
+    // ... and later things are in front of the mirror or behind it as before.
+    gl.glDepthFunc(GL_ALWAYS);
+    gl.glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    gl.glEnable(GL_DEPTH_TEST);
+    draw_flat(item, mvp, background);
+    gl.glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.glDepthFunc(GL_LESS);
+    gl.glDisable(GL_STENCIL_TEST);
 }
 
 void GpuScene::draw_mask(const ViewScene& view, const DrawView& from, const vec4& color,
@@ -413,7 +520,7 @@ void GpuScene::draw_mask(const ViewScene& view, const DrawView& from, const vec4
             continue;
         }
         const Geometry& geometry = geometry_of(item);
-        set_sides(item);
+        set_sides(item, false);
         gl_->glUniformMatrix4fv(place, 1, GL_FALSE, &mvp[0][0]);
         bind(item, geometry, lighting_of(item));
         gl_->glDrawElements(GL_TRIANGLES, geometry.count, GL_UNSIGNED_INT, nullptr);

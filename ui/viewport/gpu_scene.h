@@ -20,6 +20,11 @@ struct DrawView {
     float exposure = 1.0F; ///< factor on radiance, exposure_scale()
     bool linear = false;   ///< write radiance instead of display values
     bool use_probe = true;
+    vec3 background{0.0F};  ///< display values behind everything, also in flat mirrors
+    bool reflected = false; ///< looks into a flat mirror: `rotation` reflects, and what lies behind the mirror is cut off
+    vec4 clip{0.0F};        ///< the mirror's plane relative to the eye, positive in front
+    vec4 window{-1.0F, -1.0F, 1.0F, 1.0F}; ///< what of the view is of use: x and y from, x and y to
+    vec3 filter{1.0F};                     ///< the mirror's reflectance
 };
 
 /// Needs the GL context current in every function but the constructor. UI thread only.
@@ -51,7 +56,8 @@ private:
         unsigned vertices = 0;
         unsigned indices = 0;
         int count = 0;
-        Box3 bounds;
+        bool flat = false;                       ///< all in one plane
+        vec3 normal{0.0F};                       ///< of that plane
         std::shared_ptr<const DisplayMesh> mesh; ///< keeps the key alive, so that an address is never taken for another
     };
     struct Lighting {
@@ -69,7 +75,11 @@ private:
     const Lighting* lighting_of(const ViewItem& item);
     void bind(const ViewItem& item, const Geometry& geometry, const Lighting* lighting);
     void draw_surface(const ViewItem& item, unsigned variant, const Scene& scene, const DrawView& from, const mat4& mvp);
-    void set_sides(const ViewItem& item);
+    void set_sides(const ViewItem& item, bool reflected);
+    /// Draws what a flat mirror shows over its surface, through the stencil buffer.
+    void draw_mirror(const ViewItem& item, const ViewScene& view, const Scene& scene, const DrawView& from, const mat4& mvp,
+                     int stencil);
+    void draw_flat(const ViewItem& item, const mat4& mvp, const vec4& color);
 
     Gl* gl_ = nullptr;
     /// Surface shader compiled for a set of features; locations by the literal's address: no text is hashed per surface.

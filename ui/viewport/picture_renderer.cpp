@@ -2,6 +2,8 @@
 
 #include "engine/view/tone.h"
 
+#include <QElapsedTimer>
+
 #include <array>
 #include <cstddef>
 #include <string_view>
@@ -105,6 +107,8 @@ bool PictureRenderer::step_probe(const ViewScene& view, const Scene& scene, floa
 
 void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, int samples) {
     Gl& gl = *gl_;
+    QElapsedTimer clock;
+    clock.start();
     picture_.resize(gl, in.width, in.height, samples, GL_RGBA8, true);
     gl.glBindFramebuffer(GL_FRAMEBUFFER, picture_.framebuffer());
     gl.glViewport(0, 0, in.width, in.height);
@@ -113,8 +117,10 @@ void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, i
     const Rgb ground = max_component(sky) > 0.0F ? display_color(sky, in.exposure) : Rgb(0.27F);
     gl.glClearColor(ground.r, ground.g, ground.b, 1.0F);
     gl.glDepthMask(GL_TRUE);
-    gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    gpu_.draw(in.view, in.scene, from);
+    gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    DrawView with_background = from;
+    with_background.background = ground;
+    gpu_.draw(in.view, in.scene, with_background);
     if (in.wireframe) {
         gpu_.draw_edges(in.view, from);
     }
@@ -123,6 +129,10 @@ void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, i
         gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.framebuffer());
         gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.framebuffer());
         gl.glBlitFramebuffer(0, 0, in.width, in.height, 0, 0, in.width, in.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    }
+    if (software_) {
+        gl.glFinish(); // the work is done on this processor anyway
+        picture_milliseconds_ = double(clock.nsecsElapsed()) * 1e-6;
     }
     picture_samples_ = samples;
     picture_good_ = true;

@@ -43,8 +43,8 @@ public:
 
     /// True on a software rasteriser, where the interactive picture has no smoothed edges.
     [[nodiscard]] bool software() const { return software_; }
-    /// True when the last paint() drew a picture that `refine` would better.
-    [[nodiscard]] bool wants_refining() const { return software_ && picture_samples_ == 0; }
+    /// True when the last picture would gain from `refine` and is quick enough to draw that nobody waits for it.
+    [[nodiscard]] bool wants_refining() const { return software_ && picture_samples_ == 0 && picture_milliseconds_ < 150.0; }
     /// Number of times that the scene itself was drawn, for tests and measurements.
     [[nodiscard]] int pictures_drawn() const { return pictures_drawn_; }
 
@@ -71,6 +71,7 @@ private:
     bool items_good_ = false;
     int picture_samples_ = 0;
     int pictures_drawn_ = 0;
+    double picture_milliseconds_ = 0; ///< of the last picture on a software rasteriser
 };
 
 } // namespace atrium::ui

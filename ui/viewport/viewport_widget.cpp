@@ -102,6 +102,7 @@ struct ViewportWidget::Impl : ToolHost {
             view.note_edit(doc.scene(), edit, doc.revision());
             scene_changed();
             if (!doc.in_gesture()) {
+                selection_changed(); // what lies below the selected nodes may be other nodes now
                 probe_changed();
             }
         });
