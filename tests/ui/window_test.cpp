@@ -227,7 +227,7 @@ TEST_F(WindowTest, DeleteDuplicateGroupHideByKeys) {
     window->viewport().setFocus();
     select(named("Table"));
     QTest::keyClick(&window->viewport(), Qt::Key_D, Qt::ControlModifier);
-    EXPECT_EQ(scene().nodes.size(), count + 7);
+    EXPECT_EQ(scene().nodes.size(), count + 8) << "the table with five parts and two things on it";
     EXPECT_EQ(node(window->document().selection()->active()).name, "Table 2");
     QTest::keyClick(&window->viewport(), Qt::Key_Delete);
     EXPECT_EQ(scene().nodes.size(), count);
