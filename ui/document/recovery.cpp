@@ -30,7 +30,8 @@ Recovery::Recovery(Document& document, const QString& directory, QObject* parent
     timer_.setSingleShot(true);
     timer_.setInterval(kIntervalMs);
     connect(&timer_, &QTimer::timeout, this, &Recovery::write);
-    connect(&document_, &Document::edited, this, &Recovery::on_edited);
+    // Undo entries, not edits: a drag of a hundred mouse moves is one change worth keeping.
+    connect(document_.undo_stack(), &QUndoStack::indexChanged, this, &Recovery::on_changed);
     connect(&document_, &Document::reset_done, this, &Recovery::clear);
 }
 
@@ -87,7 +88,7 @@ void Recovery::clear() {
     QFile::remove(base_ + QStringLiteral(".json"));
 }
 
-void Recovery::on_edited() {
+void Recovery::on_changed() {
     if (!timer_.isActive()) {
         timer_.start(); // from the first unsaved edit on, not from the last one
     }

@@ -36,7 +36,7 @@ public:
     [[nodiscard]] std::vector<RecoveredFile> orphans() const;
     static void discard(const RecoveredFile& file);
 
-    void set_limits(int interval_ms, int edits); ///< defaults: two minutes, 20 edits
+    void set_limits(int interval_ms, int edits); ///< defaults: two minutes, 20 undo entries
     void clear();                                ///< saved, or closed on purpose: removes this process's files
     [[nodiscard]] QString path() const { return base_ + QStringLiteral(".atrium"); }
     [[nodiscard]] bool busy() const { return writing_; }
@@ -46,7 +46,7 @@ Q_SIGNALS:
     void failed(const QString& why);
 
 private:
-    void on_edited();
+    void on_changed();
     void write();
 
     Document& document_;

@@ -98,6 +98,7 @@ JobsPanel::JobsPanel(EngineLink& engine, QWidget* parent) : QWidget(parent), eng
     QFont bold = state_->font();
     bold.setBold(true);
     state_->setFont(bold);
+    state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     toggle_ = new QPushButton;
     toggle_->setObjectName(QStringLiteral("job_toggle"));
     top->addWidget(state_, 1);
@@ -111,6 +112,7 @@ JobsPanel::JobsPanel(EngineLink& engine, QWidget* parent) : QWidget(parent), eng
     layout->addWidget(bar_);
     auto* below = new QHBoxLayout;
     phase_ = new QLabel;
+    phase_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // its text must not widen the dock
     times_ = new QLabel;
     times_->setAlignment(Qt::AlignRight);
     below->addWidget(phase_, 1);

@@ -4,7 +4,7 @@
 #include "ui/panels/quiet_combo.h"
 
 #include <QCheckBox>
-#include <QFormLayout>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
@@ -43,13 +43,14 @@ Section::Section(const QString& title, Document& document, QWidget* parent) : QW
     line->setFrameShape(QFrame::HLine);
     line->setFrameShadow(QFrame::Sunken);
     layout->addWidget(line);
-    form_ = new QFormLayout;
-    form_->setContentsMargins(0, 2, 0, 0);
-    form_->setHorizontalSpacing(10);
-    form_->setVerticalSpacing(5);
-    form_->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-    form_->setLabelAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-    layout->addLayout(form_);
+    // Not a QFormLayout: Qt 6.4's writes past its own array when rows with wrapped text are hidden and shown again.
+    grid_ = new QGridLayout;
+    grid_->setContentsMargins(0, 2, 0, 0);
+    grid_->setHorizontalSpacing(10);
+    grid_->setVerticalSpacing(5);
+    grid_->setColumnStretch(1, 1);
+    grid_->setColumnMinimumWidth(0, 92);
+    layout->addLayout(grid_);
 }
 
 Section::~Section() = default;
@@ -97,17 +98,26 @@ void Section::bind(NumberField* field, const QString& label, std::function<Scene
     connect(field, &NumberField::refused, this, &Section::message);
 }
 
+QLabel* Section::place(const QString& label, QWidget* widget) {
+    const int row = grid_->rowCount();
+    auto* title = new QLabel(label);
+    title->setBuddy(widget);
+    if (widget->accessibleName().isEmpty()) {
+        widget->setAccessibleName(label);
+    }
+    grid_->addWidget(title, row, 0);
+    grid_->addWidget(widget, row, 1);
+    return title;
+}
+
 void Section::add_row(const QString& label, QWidget* widget, std::function<bool()> shown) {
+    QWidget* title = nullptr;
     if (label.isEmpty()) {
-        form_->addRow(widget);
+        grid_->addWidget(widget, grid_->rowCount(), 0, 1, 2);
     } else {
-        form_->addRow(label, widget);
-        if (widget->accessibleName().isEmpty()) {
-            widget->setAccessibleName(label);
-        }
+        title = place(label, widget);
     }
     if (shown) {
-        QWidget* title = form_->labelForField(widget);
         refreshers_.push_back([widget, title, shown = std::move(shown)] {
             const bool on = shown();
             widget->setVisible(on);
@@ -120,11 +130,9 @@ void Section::add_row(const QString& label, QWidget* widget, std::function<bool(
 
 NumberField* Section::add_number(const QString& label, const NumberFormat& format, Numbers read, WriteNumber write) {
     auto* field = new NumberField(format);
-    auto* title = new QLabel(label);
-    field->setAccessibleName(label);
     field->setObjectName(label);
+    QLabel* title = place(label, field);
     field->attach_label(title);
-    form_->addRow(title, field);
     bind(field, label, std::move(write));
     refreshers_.push_back([field, title, read = std::move(read)] {
         const std::vector<double> values = read();
@@ -157,8 +165,7 @@ void Section::add_vector(const QString& label, const NumberFormat& format, std::
         bind(field, label, [write, axis](double value) { return write(axis, value); });
         fields[axis] = field;
     }
-    auto* title = new QLabel(label);
-    form_->addRow(title, row);
+    QLabel* title = place(label, row);
     refreshers_.push_back([row, title, x = fields[0], y = fields[1], z = fields[2], read = std::move(read)] {
         const std::vector<dvec3> values = read();
         row->setVisible(!values.empty());
@@ -179,15 +186,13 @@ void Section::add_vector(const QString& label, const NumberFormat& format, std::
 
 ColorButton* Section::add_color(const QString& label, Colors read, WriteColor write) {
     auto* button = new ColorButton;
-    button->setAccessibleName(label);
     button->setObjectName(label);
-    form_->addRow(label, button);
+    QLabel* title = place(label, button);
     connect(button, &ColorButton::started, this, [this, label] { begin(tr("Change %1").arg(label)); });
     connect(button, &ColorButton::edited, this,
             [this, label, write = std::move(write)](const Rgb& color) { apply(write(color), tr("Change %1").arg(label)); });
     connect(button, &ColorButton::finished, this, [this] { end(true); });
     connect(button, &ColorButton::cancelled, this, [this] { end(false); });
-    QWidget* title = form_->labelForField(button);
     refreshers_.push_back([button, title, read = std::move(read)] {
         const std::vector<Rgb> values = read();
         button->setVisible(!values.empty());
@@ -203,7 +208,7 @@ QCheckBox* Section::add_check(const QString& label, std::function<std::vector<bo
                               std::function<SceneEdit(bool)> write) {
     auto* box = new QCheckBox(label);
     box->setObjectName(label);
-    form_->addRow(QString(), box);
+    grid_->addWidget(box, grid_->rowCount(), 1);
     connect(box, &QCheckBox::clicked, this, [this, label, box, write = std::move(write)](bool on) {
         box->setTristate(false);
         apply(write(on), tr("Change %1").arg(label));
@@ -224,12 +229,10 @@ QComboBox* Section::add_choice(const QString& label, const QStringList& entries,
                                std::function<SceneEdit(int)> write) {
     auto* combo = new QuietCombo;
     combo->addItems(entries);
-    combo->setAccessibleName(label);
     combo->setObjectName(label);
-    form_->addRow(label, combo);
+    QLabel* title = place(label, combo);
     connect(combo, &QComboBox::activated, this,
             [this, label, write = std::move(write)](int index) { apply(write(index), tr("Change %1").arg(label)); });
-    QWidget* title = form_->labelForField(combo);
     refreshers_.push_back([combo, title, read = std::move(read)] {
         const std::vector<int> values = read();
         combo->setVisible(!values.empty());

@@ -14,8 +14,7 @@
 
 class QCheckBox;
 class QComboBox;
-class QFormLayout;
-class QVBoxLayout;
+class QGridLayout;
 
 namespace atrium::ui {
 
@@ -60,12 +59,13 @@ protected:
     bool apply(const SceneEdit& edit, const QString& text);
 
 private:
+    QLabel* place(const QString& label, QWidget* widget); ///< appends a row; returns its label
     void bind(NumberField* field, const QString& label, std::function<SceneEdit(double)> write);
     void begin(const QString& label);
     void end(bool keep);
 
     Document& document_;
-    QFormLayout* form_ = nullptr;
+    QGridLayout* grid_ = nullptr;
     std::unique_ptr<Gesture> gesture_;
     std::vector<std::function<void()>> refreshers_;
 };

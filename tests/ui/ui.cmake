@@ -1,0 +1,14 @@
+# The editor's own tests: documents and fields without a screen would do, windows need one, so all run under Xvfb.
+if(TARGET atrium_ui)
+  file(GLOB ui_test_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/*_test.cpp ${CMAKE_CURRENT_LIST_DIR}/main.cpp
+       ${CMAKE_CURRENT_LIST_DIR}/window_fixture.cpp)
+  add_executable(ui_tests ${ui_test_sources})
+  target_link_libraries(ui_tests PRIVATE atrium_ui Qt6::Test GTest::gtest)
+  target_compile_definitions(ui_tests PRIVATE ATRIUM_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
+  target_precompile_headers(ui_tests REUSE_FROM atrium_ui)
+  find_program(XVFB_RUN xvfb-run)
+  if(XVFB_RUN)
+    add_test(NAME ui COMMAND ${XVFB_RUN} -a -s "-screen 0 1400x900x24" $<TARGET_FILE:ui_tests>)
+    set_tests_properties(ui PROPERTIES TIMEOUT 300 ENVIRONMENT "QT_QPA_PLATFORM=xcb;LC_ALL=C.UTF-8")
+  endif()
+endif()
