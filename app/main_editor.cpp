@@ -4,6 +4,7 @@
 
 #include <QApplication>
 #include <QCommandLineParser>
+#include <QDockWidget>
 #include <QFileInfo>
 #include <QSurfaceFormat>
 #include <QTextStream>
@@ -83,7 +84,10 @@ int main(int argc, char** argv) {
     const QCommandLineOption sample(QStringLiteral("sample"), QObject::tr("open the sample room"));
     const QCommandLineOption select(QStringLiteral("select"), QObject::tr("select the node of this name"),
                                     QStringLiteral("NODE"));
-    parser.addOptions({screenshot, wait, size, sample, select});
+    const QCommandLineOption panel(QStringLiteral("panel"),
+                                   QObject::tr("bring a panel to the front: tree, properties, jobs, problems"),
+                                   QStringLiteral("NAME"));
+    parser.addOptions({screenshot, wait, size, sample, select, panel});
     parser.process(app);
 
     atrium::ui::MainWindow window;
@@ -92,6 +96,10 @@ int main(int argc, char** argv) {
         window.resize(extent[0].toInt(), extent[1].toInt());
     }
     window.show();
+    if (auto* dock = window.findChild<QDockWidget*>(QStringLiteral("dock_") + parser.value(panel))) {
+        dock->show();
+        dock->raise();
+    }
     if (parser.isSet(select)) {
         QObject::connect(&window.files(), &atrium::ui::FileController::opened, &window, [&] {
             const std::string wanted = parser.value(select).toStdString();

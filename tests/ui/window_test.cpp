@@ -272,7 +272,7 @@ TEST_F(WindowTest, ClickInTheViewSelects) {
     window->viewport().set_camera(
         {glm::inverse(glm::lookAt(centre + dvec3(0, 0.3, 1.5), centre, dvec3(0, 1, 0))), Camera{}});
     settle();
-    QTest::mouseClick(&window->viewport(), Qt::LeftButton, {}, at(centre));
+    QTest::mouseClick(&window->viewport(), Qt::LeftButton, {}, at(centre) + QPoint(7, 4));
     settle();
     EXPECT_EQ(window->document().selection()->active(), bowl);
     EXPECT_TRUE(window->tree().view()->selectionModel()->isSelected(window->tree().view_index(bowl)));

@@ -46,7 +46,9 @@ MaterialSection::MaterialSection(Document& document) : Section(tr("Material"), d
     part_->setObjectName(QStringLiteral("material_part"));
     add_row(tr("Part"), part_, [this] { return parts_of_active() > 1; });
     connect(part_, &QComboBox::activated, this, [this] { refresh(); });
-    material_ = new QuietCombo;
+    auto* choice = new QuietCombo;
+    connect(choice, &QuietCombo::about_to_be_used, this, [this] { fill_materials(true); });
+    material_ = choice;
     material_->setObjectName(QStringLiteral("material_choice"));
     material_->setToolTip(tr("Give the selected objects another material of this scene"));
     add_row(tr("Material"), material_);
@@ -234,7 +236,7 @@ void MaterialSection::fill_parts() {
     part_->setCurrentIndex(keep < int(count) ? std::max(keep, 0) : 0);
 }
 
-void MaterialSection::fill_materials() {
+void MaterialSection::fill_materials(bool all_of_them) {
     const QSignalBlocker quiet(material_);
     material_->clear();
     material_->addItem(swatch(default_material().base_color), tr("Default"), QVariant(QVariantList{}));
@@ -246,7 +248,11 @@ void MaterialSection::fill_materials() {
         some_without = some_without || scene().material_of(*scene().nodes.find(place.node), place.part) == nullptr;
     }
     scene().materials.for_each([&](MaterialId id, const Material& material) {
-        if (ids.size() == 1 && ids.front() == id && !some_without) {
+        const bool is_current = ids.size() == 1 && ids.front() == id && !some_without;
+        if (!is_current && !all_of_them) {
+            return;
+        }
+        if (is_current) {
             current = material_->count();
         }
         material_->addItem(swatch(material.emits() ? hue(material.emitted_radiance()) : material.base_color),
@@ -258,7 +264,7 @@ void MaterialSection::fill_materials() {
 
 void MaterialSection::refresh_more() {
     fill_parts();
-    fill_materials();
+    fill_materials(material_->hasFocus());
     const std::vector<MaterialId> ids = targets();
     if (ids.empty()) {
         note_->setText(tr("No material of its own: white, reflectance 80 %."));

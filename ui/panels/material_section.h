@@ -31,7 +31,7 @@ private:
     SceneEdit write(const std::function<void(Material&)>& change) const;
     std::vector<double> read(const std::function<double(const Material&)>& get) const;
     void fill_parts();
-    void fill_materials();
+    void fill_materials(bool all_of_them); ///< otherwise only the current one: cheap at every refresh
     void assign(MaterialId material);
     void make_unique();
 

@@ -307,6 +307,8 @@ void ShapeSection::refresh_more() {
 }
 
 SceneSection::SceneSection(Document& document) : Section(tr("Scene"), document) {
+    connect(&document, &Document::reset_done, this, [this] { measure_ = true; });
+    connect(document.selection(), &Selection::changed, this, [this] { measure_ = true; });
     summary_ = new QLabel;
     summary_->setWordWrap(true);
     add_row(QString(), summary_);
@@ -358,12 +360,14 @@ void SceneSection::refresh_more() {
     QString text =
         tr("%1 objects, %2 materials")
             .arg(locale.toString(qulonglong(scene().nodes.size())), locale.toString(qulonglong(scene().materials.size())));
-    if (scene().nodes.size() <= 2000) {
+    if (measure_) {
+        measure_ = false;
         const dvec3 size = scene().bounds().size();
-        text += tr(", %1 x %2 x %3 m")
+        size_ = tr(", %1 x %2 x %3 m")
                     .arg(QString::fromStdString(format_number(size.x, 2)), QString::fromStdString(format_number(size.y, 2)),
                          QString::fromStdString(format_number(size.z, 2)));
     }
+    text += size_;
     summary_->setText(text);
 }
 

@@ -67,6 +67,8 @@ protected:
 
 private:
     QLabel* summary_ = nullptr;
+    QString size_; ///< extent as text; measured on opening and on deselecting, not at every edit
+    bool measure_ = true;
 };
 
 } // namespace atrium::ui
