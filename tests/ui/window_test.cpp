@@ -3,10 +3,15 @@
 #include "engine/io/scene_file.h"
 #include "ui/document/sample_room.h"
 #include "ui/tools/gizmo.h"
+#include "ui/window/export_picture_dialog.h"
 
 #include <QDialog>
+#include <QDragEnterEvent>
+#include <QFile>
+#include <QImage>
 #include <QLineEdit>
 #include <QMessageBox>
+#include <QMimeData>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSignalSpy>
@@ -376,6 +381,78 @@ TEST_F(WindowTest, RecoversAfterAKill) {
     EXPECT_TRUE(window->recovery().orphans().empty());
 }
 
+TEST_F(WindowTest, RendersAPictureOfTheView) {
+    open_sample();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window->engine().solution() != nullptr; }, 60000));
+    settle();
+    trigger(ActionId::ExportPicture);
+    auto* settings = dialog<ExportPictureDialog>();
+    ASSERT_NE(settings, nullptr);
+    const auto fields = settings->findChildren<NumberField*>();
+    ASSERT_EQ(fields.size(), 3);
+    type(fields[0], "64");
+    type(fields[1], "48");
+    type(fields[2], "1");
+    const QString path = folder.filePath(QStringLiteral("view.png"));
+    settings->render(path);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(path); }, 30000));
+    const QImage picture(path);
+    EXPECT_EQ(picture.size(), QSize(64, 48));
+    int lit = 0;
+    for (int x = 0; x < 64; ++x) {
+        lit += picture.pixelColor(x, 24).lightness() > 20 ? 1 : 0;
+    }
+    EXPECT_GT(lit, 40) << "the room is lit";
+}
+
+TEST_F(WindowTest, ASceneFileDroppedOntoTheWindowOpens) {
+    const QString path = folder.filePath(QStringLiteral("dropped.glb"));
+    ASSERT_TRUE(write_scene(path.toStdString(), sample_room()));
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(path)});
+    QSignalSpy opened(&window->files(), &FileController::opened);
+    QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(window.get(), &enter);
+    EXPECT_TRUE(enter.isAccepted());
+    QDropEvent drop(QPointF(50, 50), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(window.get(), &drop);
+    ASSERT_TRUE(opened.wait(10000));
+    EXPECT_EQ(window->document().path(), path);
+}
+
+TEST_F(WindowTest, CommandSearchRunsWhatWasTyped) {
+    open_sample();
+    trigger(ActionId::Commands);
+    auto* search = dialog<QDialog>("command_search");
+    ASSERT_NE(search, nullptr);
+    auto* text = search->findChild<QLineEdit*>();
+    QTest::keyClicks(text, QStringLiteral("add a sphere"));
+    QTest::keyClick(text, Qt::Key_Return);
+    settle();
+    EXPECT_EQ(entries(), 1);
+    EXPECT_EQ(node(window->document().selection()->active()).name, "Sphere");
+}
+
+TEST_F(WindowTest, MovingRowsReparentsInPlace) {
+    open_sample();
+    const NodeId bowl = named("Bowl");
+    const NodeId sofa = named("Sofa");
+    const dmat4 place = scene().world_matrix(bowl);
+    QAbstractItemModel* model = window->tree().view()->model();
+    const std::unique_ptr<QMimeData> rows(model->mimeData({window->tree().view_index(bowl)}));
+    ASSERT_TRUE(model->dropMimeData(rows.get(), Qt::MoveAction, -1, -1, window->tree().view_index(sofa)));
+    EXPECT_EQ(node(bowl).parent, sofa);
+    EXPECT_NEAR(scene().world_matrix(bowl)[3].x, place[3].x, 1e-12);
+    EXPECT_EQ(entries(), 1);
+    EXPECT_EQ(window->tree().view_index(bowl).parent(), window->tree().view_index(sofa));
+    const std::unique_ptr<QMimeData> parent(model->mimeData({window->tree().view_index(sofa)}));
+    EXPECT_FALSE(model->canDropMimeData(parent.get(), Qt::MoveAction, -1, -1, window->tree().view_index(bowl)))
+        << "nothing goes below itself";
+    trigger(ActionId::Undo);
+    EXPECT_TRUE(scene() == sample_room());
+    EXPECT_EQ(window->tree().view_index(bowl).parent(), window->tree().view_index(named("Table")));
+}
+
 TEST_F(WindowTest, ImportSuggestionIsOfferedAndUndoable) {
     Scene small = sample_room();
     // The sample room drawn in millimetres: every length a thousand times as large.
@@ -420,6 +497,32 @@ TEST_F(WindowTest, ImportSuggestionIsOfferedAndUndoable) {
     EXPECT_EQ(entries(), 1);
     trigger(ActionId::Undo);
     EXPECT_GT(scene().bounds().size().x, 1000);
+}
+
+TEST_F(WindowTest, IconsAreSeenOnLightAndOnDark) {
+    const QPalette before = QApplication::palette();
+    const auto lightness = [this] {
+        const QImage icon = window->action(ActionId::Open)->icon().pixmap(32, 32).toImage();
+        double sum = 0;
+        double weight = 0;
+        for (int y = 0; y < icon.height(); ++y) {
+            for (int x = 0; x < icon.width(); ++x) {
+                const QColor pixel = icon.pixelColor(x, y);
+                sum += double(pixel.lightnessF()) * double(pixel.alphaF());
+                weight += double(pixel.alphaF());
+            }
+        }
+        EXPECT_GT(weight, 10);
+        return sum / weight;
+    };
+    QPalette palette = before;
+    palette.setColor(QPalette::WindowText, Qt::black);
+    QApplication::setPalette(palette);
+    EXPECT_LT(lightness(), 0.2);
+    palette.setColor(QPalette::WindowText, Qt::white);
+    QApplication::setPalette(palette);
+    EXPECT_GT(lightness(), 0.8);
+    QApplication::setPalette(before);
 }
 
 TEST_F(WindowTest, EveryActionHasTextTipAndItsOwnKey) {

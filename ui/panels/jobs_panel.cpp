@@ -122,6 +122,7 @@ JobsPanel::JobsPanel(EngineLink& engine, QWidget* parent) : QWidget(parent), eng
     figures_->setColumnCount(2);
     figures_->setHeaderHidden(true);
     figures_->setRootIsDecorated(true);
+    figures_->setWordWrap(true);
     figures_->setAccessibleName(tr("Figures of the solution"));
     figures_->header()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
     layout->addWidget(figures_, 1);

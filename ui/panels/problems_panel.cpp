@@ -17,13 +17,12 @@ constexpr int kMaxRows = 1000;
 ProblemsPanel::ProblemsPanel(Document& document, QWidget* parent) : QTreeWidget(parent), document_(document) {
     setObjectName(QStringLiteral("problems"));
     setAccessibleName(tr("Problems"));
-    setHeaderLabels({tr("Where"), tr("What"), tr("What to do")});
+    setHeaderLabels({tr("Where"), tr("What, and what to do")});
     setRootIsDecorated(false);
-    setUniformRowHeights(true);
+    setWordWrap(true);
     setTextElideMode(Qt::ElideRight);
-    header()->setSectionResizeMode(0, QHeaderView::Interactive);
-    header()->resizeSection(0, 150);
-    header()->resizeSection(1, 330);
+    header()->resizeSection(0, 120);
+    header()->setStretchLastSection(true);
     delay_.setSingleShot(true);
     delay_.setInterval(kDelayMs);
     connect(&delay_, &QTimer::timeout, this, &ProblemsPanel::check);
@@ -82,12 +81,15 @@ void ProblemsPanel::fill(const std::vector<Problem>& found) {
         if (rows.size() >= kMaxRows) {
             continue;
         }
-        auto* row = new QTreeWidgetItem({QString::fromStdString(problem.where), QString::fromStdString(problem.what),
-                                         QString::fromStdString(problem.hint)});
+        QString text = QString::fromStdString(problem.what);
+        if (!problem.hint.empty()) {
+            text += QLatin1Char('\n') + QString::fromStdString(problem.hint);
+        }
+        auto* row = new QTreeWidgetItem({QString::fromStdString(problem.where), text});
         row->setIcon(0, tinted_icon(QLatin1StringView(severity_name(problem.severity))));
         row->setData(0, Qt::UserRole, problem.node.slot);
         row->setData(0, Qt::UserRole + 1, problem.node.generation);
-        for (int column = 0; column < 3; ++column) {
+        for (int column = 0; column < 2; ++column) {
             row->setToolTip(column, row->text(column));
         }
         rows.push_back(row);

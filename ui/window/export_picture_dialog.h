@@ -25,14 +25,13 @@ public:
     ExportPictureDialog(Scene scene, std::shared_ptr<const Solution> solution, ViewCamera camera, float exposure,
                         const QString& suggestion, QWidget* parent);
     ~ExportPictureDialog() override;
+    void render(const QString& path); ///< with the settings shown; closes the dialog when the file is written
 
 Q_SIGNALS:
     void message(const QString& text);
 
 private:
     void choose_file();
-    void render(const QString& path);
-
     Scene scene_;
     std::shared_ptr<const Solution> solution_;
     ViewCamera camera_;
