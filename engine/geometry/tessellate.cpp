@@ -195,4 +195,19 @@ bool is_closed(const MeshData& mesh) {
                                          [](const auto& e) { return e.second.balance == 0 && e.second.count == 2; });
 }
 
+double signed_volume(const MeshData& mesh) {
+    if (mesh.indices.empty()) {
+        return 0.0;
+    }
+    const dvec3 o(mesh.positions[mesh.indices[0]]); // near the mesh: large coordinates do not cancel
+    double sum = 0.0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const dvec3 a = dvec3(mesh.positions[mesh.indices[i]]) - o;
+        const dvec3 b = dvec3(mesh.positions[mesh.indices[i + 1]]) - o;
+        const dvec3 c = dvec3(mesh.positions[mesh.indices[i + 2]]) - o;
+        sum += glm::dot(a, glm::cross(b, c));
+    }
+    return sum / 6.0;
+}
+
 } // namespace atrium

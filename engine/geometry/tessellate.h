@@ -19,4 +19,7 @@ std::shared_ptr<const MeshData> tessellate(const Geometry& geometry, const Tesse
 /// solid and its back sides can never be seen from outside.
 bool is_closed(const MeshData& mesh);
 
+/// Signed volume of a closed mesh, cubic metres in its own coordinates: positive when its faces look outward.
+double signed_volume(const MeshData& mesh);
+
 } // namespace atrium

@@ -57,7 +57,10 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, 
             return out;
         }
     } else if (r < 1.5F * e.radius) {
-        out.error = std::numeric_limits<float>::max(); // inside or beside it: no direction describes it, look at its parts
+        // Inside or beside it no direction describes it: its parts are looked at first. Should the cut be full before,
+        // it counts as a uniform surrounding.
+        out.error = std::numeric_limits<float>::max();
+        out.contribution = e.radiosity * (0.5F * std::min(1.0F, e.area / (4.0F * kPi * e.radius * e.radius)));
         return out;
     }
     const vec3 w = d / r;

@@ -59,6 +59,7 @@ struct RayScene::Impl {
     RTCDevice device = nullptr;
     RTCScene embree = nullptr;
     dvec3 origin{0.0};
+    double extent = 0.0; // diagonal of the world bounds
     Box3 bounds;
     std::size_t triangles = 0;
     std::size_t dropped = 0;
@@ -73,6 +74,7 @@ struct RayScene::Impl {
 
     void collect() {
         const DBox3 world = scene.bounds();
+        extent = world.diagonal();
         origin = world.empty() ? dvec3(0.0) : glm::round(world.centre());
         std::map<const MeshData*, bool> closed;
         std::map<ShapeId, std::shared_ptr<const MeshData>> tessellated;
@@ -136,7 +138,10 @@ struct RayScene::Impl {
             if (material->double_sided && !lets_light_through(*material)) {
                 const auto [it, first] = closed.try_emplace(mesh.get(), false);
                 if (first) {
-                    it->second = is_closed(*mesh);
+                    // Solids' insides stay dark and cost nothing. Whatever is as large as a room may be one, seen from
+                    // inside.
+                    const bool small = scene.world_bounds(id).diagonal() < 0.25 * extent;
+                    it->second = small && is_closed(*mesh) && signed_volume(*mesh) > 0.0;
                 }
                 surface.back_side = !it->second;
             }

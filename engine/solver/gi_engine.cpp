@@ -231,7 +231,9 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     std::shared_ptr<const Solution> latest;
     const auto stopped = [&]() -> Result<std::shared_ptr<const Solution>> {
         if (latest) {
-            return latest;
+            auto unfinished = std::make_shared<Solution>(*latest);
+            unfinished->statistics.converged = false;
+            return unfinished;
         }
         return fail("", "", "stopped before the first picture", "Give it more time, or choose draft quality");
     };
