@@ -70,8 +70,8 @@ public:
         bool complete = sample(all, from, from + 0.5 * (to - from));
         for (int level = 0; complete && level < 6 && added_ < settings_.max_vertices; ++level) {
             const double step = 0.5 * (to - from) / 6.0;
-            if (!split_by_contrast(from + 0.5 * (to - from) + step * level, from + 0.5 * (to - from) + step * (level + 1),
-                                   complete)) {
+            if (!split_by_contrast(level == 0, from + 0.5 * (to - from) + step * level,
+                                   from + 0.5 * (to - from) + step * (level + 1), complete)) {
                 break;
             }
         }
@@ -398,8 +398,16 @@ private:
         return difference > 2.0F * noise ? difference / std::max({mean, lm, floor}) : 0.0F;
     }
 
+    [[nodiscard]] bool alike(const Vertex& a, const Vertex& b) const {
+        const auto close = [&](const DirectSample& p, const DirectSample& q) {
+            const float x = luminance(p.irradiance), y = luminance(q.irradiance);
+            return std::abs(x - y) <= settings_.contrast * std::max({x, y, settings_.light_floor});
+        };
+        return a.front_covered == b.front_covered && close(a.front, b.front) && (!a.wants_back || close(a.back, b.back));
+    }
+
     // One level: samples the midpoints of all open edges, splits those that deviate. False when nothing was split.
-    bool split_by_contrast(double from, double to, bool& complete) {
+    bool split_by_contrast(bool first_look, double from, double to, bool& complete) {
         struct Candidate {
             std::size_t mesh;
             std::uint32_t a, b; // vertex pair
@@ -418,7 +426,13 @@ private:
                     3.0F;
                 for (std::size_t k = 0; k < 3; ++k) {
                     const std::uint32_t a = std::min(t.v[k], t.v[(k + 1) % 3]), b = std::max(t.v[k], t.v[(k + 1) % 3]);
-                    if (edge_length(mesh, a, b) <= 2.0F * settings_.smallest_edge) {
+                    const float length = edge_length(mesh, a, b);
+                    if (length <= 2.0F * settings_.smallest_edge) {
+                        continue;
+                    }
+                    // The file's own short edges are looked at only where their ends already differ: fine meshes have
+                    // far more edges than light has detail.
+                    if (first_look && length <= 0.25F * settings_.base_edge && alike(mesh.vertices[a], mesh.vertices[b])) {
                         continue;
                     }
                     const auto [it, fresh] = seen.try_emplace(edge_key(a, b), candidates.size());
