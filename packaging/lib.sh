@@ -12,6 +12,11 @@ die() {
 missing_packages() {
     local name
     sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "$root/packaging/dependencies" | while read -r name; do
+        # Node is often there from elsewhere, and Debian's npm brings hundreds of packages.
+        case "$name" in
+        nodejs) command -v node >/dev/null && continue ;;
+        npm) command -v npm >/dev/null && continue ;;
+        esac
         [ "$(dpkg-query -W -f='${db:Status-Status}' "$name" 2>/dev/null)" = installed ] || printf '%s\n' "$name"
     done
 }
