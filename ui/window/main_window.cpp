@@ -366,7 +366,11 @@ void MainWindow::connect_edit() {
             }
         });
     }
-    on(ActionId::AddCamera, [this] { edit_->add_camera_here(viewport_->camera()); });
+    on(ActionId::AddCamera, [this] {
+        started_ = true;
+        update_page();
+        edit_->add_camera_here(viewport_->camera());
+    });
     connect(edit_, &EditController::message, this, &MainWindow::say);
 }
 
