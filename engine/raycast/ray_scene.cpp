@@ -58,6 +58,7 @@ struct RayScene::Impl {
     std::vector<Counter> counters = std::vector<Counter>(16);
     RTCDevice device = nullptr;
     RTCScene embree = nullptr;
+    RTCScene filters = nullptr; // what lets light through, by itself: most rays meet none of it
     dvec3 origin{0.0};
     double extent = 0.0; // diagonal of the world bounds
     Box3 bounds;
@@ -164,8 +165,11 @@ struct RayScene::Impl {
             },
             this);
         embree = rtcNewScene(device);
-        rtcSetSceneFlags(embree, RTC_SCENE_FLAG_ROBUST);
-        rtcSetSceneBuildQuality(embree, RTC_BUILD_QUALITY_MEDIUM);
+        filters = rtcNewScene(device);
+        for (RTCScene scene_part : {embree, filters}) {
+            rtcSetSceneFlags(scene_part, RTC_SCENE_FLAG_ROBUST);
+            rtcSetSceneBuildQuality(scene_part, RTC_BUILD_QUALITY_MEDIUM);
+        }
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
             const RaySurface& s = surfaces[i];
             RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -178,14 +182,19 @@ struct RayScene::Impl {
             rtcSetGeometryMask(geometry, lets_light_through(*materials[i]) ? kFilterMask : kOpaqueMask);
             rtcCommitGeometry(geometry);
             rtcAttachGeometryByID(embree, geometry, unsigned(i));
+            if (lets_light_through(*materials[i])) {
+                rtcAttachGeometryByID(filters, geometry, unsigned(i));
+            }
             rtcReleaseGeometry(geometry);
         }
         rtcCommitScene(embree);
+        rtcCommitScene(filters);
     }
 
     ~Impl() {
         if (embree != nullptr) {
             rtcReleaseScene(embree);
+            rtcReleaseScene(filters);
         }
         if (device != nullptr) {
             rtcSetDeviceMemoryMonitorFunction(device, nullptr, nullptr);
@@ -218,15 +227,15 @@ struct RayScene::Impl {
         return ray.tfar < 0.0F;
     }
 
-    Hit hit(const vec3& from, const vec3& direction, float tnear, float tfar, unsigned mask) {
+    Hit hit(RTCScene where, const vec3& from, const vec3& direction, float tnear, float tfar) {
         count_ray();
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         RTCRayHit query;
-        fill(query.ray, from, direction, tnear, tfar, mask);
+        fill(query.ray, from, direction, tnear, tfar, kOpaqueMask | kFilterMask);
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(embree, &context, &query);
+        rtcIntersect1(where, &context, &query);
         Hit out;
         if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
             return out;
@@ -268,7 +277,7 @@ struct RayScene::Impl {
             return through;
         }
         for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
-            const Hit h = hit(from, direction, tnear, tfar, kFilterMask);
+            const Hit h = hit(filters, from, direction, tnear, tfar);
             if (!h) {
                 return through;
             }
@@ -324,7 +333,7 @@ std::uint64_t RayScene::rays_traced() const {
 Hit RayScene::nearest(const Ray& ray) const {
     float tnear = 0.0F;
     for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
-        const Hit h = impl_->hit(ray.origin, ray.direction, tnear, ray.tmax, kOpaqueMask | kFilterMask);
+        const Hit h = impl_->hit(impl_->embree, ray.origin, ray.direction, tnear, ray.tmax);
         if (!h) {
             return h;
         }
