@@ -434,7 +434,7 @@ private:
         const float difference = std::max(std::abs(lm - mean), 0.2F * std::abs(la - lb));
         // A difference that the samples' own noise explains is no reason to look closer: it would be noise again.
         const float noise = std::sqrt(m.variance + 0.25F * (a.variance + b.variance));
-        return difference > noise ? difference / std::max({mean, lm, floor}) : 0.0F;
+        return difference > 1.5F * noise ? difference / std::max({mean, lm, floor}) : 0.0F;
     }
 
     [[nodiscard]] bool alike(const Vertex& a, const Vertex& b) const {

@@ -146,11 +146,26 @@ struct RayScene::Impl {
                 }
                 surface.back_side = !it->second;
             }
+            surface.pane = is_pane(surface, *material);
             triangles += surface.triangles.size();
             materials.push_back(material);
             any_filter = any_filter || lets_light_through(*material);
             surfaces.push_back(std::move(surface));
         }
+    }
+
+    static bool is_pane(const RaySurface& surface, const Material& material) {
+        constexpr std::size_t kMostTriangles = 32; // more is a curved or ornate thing, not a window
+        constexpr float kLeastArea = 0.1F;         // square metres
+        if (classify(material) != MaterialKind::DielectricThin || surface.triangles.size() > kMostTriangles) {
+            return false;
+        }
+        float area = 0.0F;
+        for (const uvec3& t : surface.triangles) {
+            const auto& p = *surface.positions;
+            area += 0.5F * glm::length(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]));
+        }
+        return area >= kLeastArea;
     }
 
     void build() {
@@ -360,6 +375,18 @@ Rgb RayScene::transmittance(const vec3& from, const vec3& to) const {
 
 Rgb RayScene::transmittance_to_infinity(const vec3& from, const vec3& direction) const {
     return impl_->transmit(*this, from, direction, kEndOffset, std::numeric_limits<float>::infinity());
+}
+
+Hit RayScene::first_pane(const vec3& from, const vec3& direction) const {
+    float tnear = 0.0F;
+    for (int crossing = 0; impl_->any_filter && crossing < kMaxCrossings; ++crossing) {
+        const Hit h = impl_->hit(impl_->filters, from, direction, tnear, std::numeric_limits<float>::infinity());
+        if (!h || impl_->surfaces[h.surface].pane) {
+            return h;
+        }
+        tnear = h.t + std::max(1e-5F, 1e-6F * h.t);
+    }
+    return {};
 }
 
 vec4 RayScene::base_color(std::uint32_t surface, std::uint32_t triangle, const vec2& barycentric) const {
