@@ -75,7 +75,9 @@ struct RayScene::Impl {
     void collect() {
         const DBox3 world = scene.bounds();
         extent = world.diagonal();
-        origin = world.empty() ? dvec3(0.0) : glm::round(world.centre());
+        // floor(x + 0.5), not round(): halves go the same way on both sides of zero, so a moved scene gives the same
+        // numbers.
+        origin = world.empty() ? dvec3(0.0) : glm::floor(world.centre() + 0.5);
         std::map<const MeshData*, bool> closed;
         std::map<ShapeId, std::shared_ptr<const MeshData>> tessellated;
         for (const NodeId id : scene.in_tree_order()) {
