@@ -24,43 +24,109 @@ bool in_triangle(const vec2& a, const vec2& b, const vec2& c, const vec2& p) {
     return cross(a, b, p) >= 0.0 && cross(b, c, p) >= 0.0 && cross(c, a, p) >= 0.0;
 }
 
-// Vertex of `ring` that the hole's rightmost point `m` can be joined to without crossing an edge.
-std::size_t bridge_vertex(const std::vector<vec2>& points, const std::vector<std::uint32_t>& ring, const vec2& m) {
-    std::size_t best = ring.size();
-    double best_x = std::numeric_limits<double>::infinity();
+using Ring = std::vector<std::uint32_t>;
+
+// Corner i of a ring whose inside lies to the left of its edges: does direction `to` - corner point inside (or along an
+// edge)?
+bool in_cone(const std::vector<vec2>& points, const Ring& ring, std::size_t i, const vec2& to) {
+    const vec2& v = points[ring[i]];
+    const vec2& previous = points[ring[(i + ring.size() - 1) % ring.size()]];
+    const vec2& next = points[ring[(i + 1) % ring.size()]];
+    if (cross(previous, v, next) > 0.0) {
+        return cross(v, next, to) >= 0.0 && cross(v, to, previous) >= 0.0;
+    }
+    return !(cross(v, previous, to) > 0.0 && cross(v, to, next) > 0.0);
+}
+
+// True when the open segment s-t meets an edge of the ring: crosses it or runs through one of its corners.
+bool crosses(const std::vector<vec2>& points, const Ring& ring, const vec2& s, const vec2& t) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const vec2& p = points[ring[i]];
         const vec2& q = points[ring[(i + 1) % ring.size()]];
-        if ((p.y <= m.y && q.y >= m.y) || (q.y <= m.y && p.y >= m.y)) {
-            const double dy = double(q.y) - p.y;
-            const double x = dy == 0.0 ? std::max(p.x, q.x) : p.x + (double(m.y) - p.y) / dy * (double(q.x) - p.x);
-            if (x >= m.x && x < best_x) {
-                best_x = x;
-                best = p.x > q.x ? i : (i + 1) % ring.size();
+        const double side_p = cross(s, t, p);
+        const double side_q = cross(s, t, q);
+        if (side_p == 0.0) {
+            const vec2 from_s = p - s;
+            const vec2 from_t = p - t;
+            if (p != s && p != t && from_s.x * from_t.x + from_s.y * from_t.y < 0.0F) {
+                return true;
+            }
+        } else if (side_q != 0.0 && (side_p > 0.0) != (side_q > 0.0)) {
+            const double side_s = cross(p, q, s);
+            const double side_t = cross(p, q, t);
+            if ((side_s > 0.0 && side_t < 0.0) || (side_s < 0.0 && side_t > 0.0)) {
+                return true;
             }
         }
     }
-    if (best == ring.size()) {
-        return 0; // hole outside the outer ring: any bridge will do
+    return false;
+}
+
+// Joins holes[index] to `ring` by the shortest bridge from one of its corners that meets nothing on its way. Windows in a
+// row have corners of equal height and share bridge ends, so corners are judged by where they are in the ring, not by their
+// coordinates. A hole that no bridge reaches lies outside and cuts nothing.
+void join_hole(const std::vector<vec2>& points, Ring& ring, const std::vector<Ring>& holes, std::size_t index) {
+    const Ring& hole = holes[index];
+    std::vector<std::pair<double, std::size_t>> nearest(ring.size());
+    for (std::size_t h = 0; h < hole.size(); ++h) { // the first, the rightmost corner, nearly always finds one
+        const vec2& m = points[hole[h]];
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const dvec2 d = dvec2(points[ring[i]]) - dvec2(m);
+            nearest[i] = {glm::dot(d, d), i};
+        }
+        std::sort(nearest.begin(), nearest.end());
+        for (const auto& [distance, i] : nearest) {
+            const vec2& v = points[ring[i]];
+            bool open = false;
+            if (v == m) { // they touch here: both edges of the hole must lead inside
+                open = in_cone(points, ring, i, points[hole[(h + 1) % hole.size()]]) &&
+                       in_cone(points, ring, i, points[hole[(h + hole.size() - 1) % hole.size()]]);
+            } else {
+                open = in_cone(points, ring, i, m) && in_cone(points, hole, h, v) && !crosses(points, ring, v, m);
+                for (std::size_t k = index; k < holes.size() && open; ++k) {
+                    open = !crosses(points, holes[k], v, m);
+                }
+            }
+            if (open) {
+                Ring insert(hole.begin() + std::ptrdiff_t(h), hole.end());
+                insert.insert(insert.end(), hole.begin(), hole.begin() + std::ptrdiff_t(h) + 1);
+                insert.push_back(ring[i]);
+                ring.insert(ring.begin() + std::ptrdiff_t(i) + 1, insert.begin(), insert.end());
+                return;
+            }
+        }
     }
-    // A reflex vertex inside the triangle (m, hit, candidate) hides the candidate: take the one at the smallest angle.
-    const vec2 hit(float(best_x), m.y);
-    const vec2 candidate = points[ring[best]];
-    double best_slope = std::numeric_limits<double>::infinity();
-    std::size_t chosen = best;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-        const vec2& p = points[ring[i]];
-        if (p == candidate || p.x < m.x) {
+}
+
+// An ear can be cut off when nothing of the ring lies in it. Corners at the ear's own points do no harm unless they stand at
+// its tip and an edge of theirs leaves through the ear.
+bool is_clear_ear(const std::vector<vec2>& points, const Ring& ring, std::size_t i) {
+    const std::size_t n = ring.size();
+    const vec2& a = points[ring[(i + n - 1) % n]];
+    const vec2& b = points[ring[i]];
+    const vec2& c = points[ring[(i + 1) % n]];
+    for (std::size_t k = 0; k < n; ++k) {
+        const vec2& p = points[ring[k]];
+        if (p == a || p == c || k == i) {
             continue;
         }
-        const bool inside = candidate.y > m.y ? in_triangle(m, hit, candidate, p) : in_triangle(m, candidate, hit, p);
-        const double slope = std::abs(double(p.y) - m.y) / std::max(double(p.x) - m.x, 1e-30);
-        if (inside && slope < best_slope) {
-            best_slope = slope;
-            chosen = i;
+        if (p == b) {
+            for (const std::size_t other : {(k + 1) % n, (k + n - 1) % n}) {
+                const vec2& q = points[ring[other]];
+                if (cross(b, c, q) > 0.0 && cross(b, q, a) > 0.0) {
+                    return false;
+                }
+            }
+        } else if (in_triangle(a, b, c, p)) {
+            return false;
         }
     }
-    return chosen;
+    return true;
+}
+
+// A corner that encloses nothing: a point given twice, or a spike such as an emptied bridge.
+bool is_spike(const vec2& a, const vec2& b, const vec2& c) {
+    return a == b || b == c || (cross(a, b, c) == 0.0 && glm::dot(dvec2(a) - dvec2(b), dvec2(c) - dvec2(b)) > 0.0);
 }
 
 } // namespace
@@ -92,12 +158,8 @@ PolygonTriangles triangulate(const Polygon& polygon) {
     }
     std::stable_sort(holes.begin(), holes.end(),
                      [&](const auto& a, const auto& b) { return out.points[a[0]].x > out.points[b[0]].x; });
-    for (const auto& hole : holes) {
-        const std::size_t at = bridge_vertex(out.points, ring, out.points[hole[0]]);
-        std::vector<std::uint32_t> insert(hole.begin(), hole.end());
-        insert.push_back(hole[0]);
-        insert.push_back(ring[at]);
-        ring.insert(ring.begin() + std::ptrdiff_t(at) + 1, insert.begin(), insert.end());
+    for (std::size_t h = 0; h < holes.size(); ++h) {
+        join_hole(out.points, ring, holes, h);
     }
 
     while (ring.size() >= 3) {
@@ -114,15 +176,7 @@ PolygonTriangles triangulate(const Polygon& polygon) {
                 fallback_area = area;
                 fallback = i;
             }
-            if (area <= 0.0) {
-                continue;
-            }
-            bool clear = true;
-            for (std::size_t k = 0; k < n && clear; ++k) {
-                const vec2& p = out.points[ring[k]];
-                clear = p == a || p == b || p == c || !in_triangle(a, b, c, p);
-            }
-            if (clear) {
+            if (is_spike(a, b, c) || (area > 0.0 && is_clear_ear(out.points, ring, i))) {
                 ear = i;
             }
         }

@@ -28,7 +28,9 @@ Box3 local_bounds(const Geometry& geometry) {
                 symmetric(vec3(g.radius, g.radius, 0.0F));
             } else {
                 for (const vec3& p : g.data->positions) {
-                    box.add(p);
+                    if (is_finite(p)) { // a stray NaN must not take the whole scene's bounds with it
+                        box.add(p);
+                    }
                 }
             }
         },

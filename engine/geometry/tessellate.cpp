@@ -101,15 +101,19 @@ void sphere(Builder& out, const Sphere& shape, int segments) {
     }
 }
 
-void disc_at(Builder& out, const vec3& centre, const vec3& u, const vec3& v, float radius, int segments) {
-    const vec3 n = glm::cross(u, v);
+// Front side along u x v, or against it when `turned`: a cap shares its rim with the side wall bit for bit only if both
+// compute it from the same cosines and sines, so both caps of a solid go round the same way.
+void disc_at(Builder& out, const vec3& centre, const vec3& u, const vec3& v, float radius, int segments,
+             bool turned = false) {
+    const vec3 n = turned ? glm::cross(v, u) : glm::cross(u, v);
     const std::uint32_t middle = out.vertex(centre, n, {0.5F, 0.5F});
     std::uint32_t previous = 0;
     for (int i = 0; i <= segments; ++i) {
         const vec2 c = circle(i, segments);
-        const std::uint32_t rim = out.vertex(centre + radius * (c.x * u + c.y * v), n, 0.5F + 0.5F * c);
+        const vec2 uv = 0.5F + 0.5F * (turned ? vec2(c.y, c.x) : c);
+        const std::uint32_t rim = out.vertex(centre + radius * (c.x * u + c.y * v), n, uv);
         if (i > 0) {
-            out.triangle(middle, previous, rim);
+            turned ? out.triangle(middle, rim, previous) : out.triangle(middle, previous, rim);
         }
         previous = rim;
     }
@@ -132,7 +136,7 @@ void frustum(Builder& out, float base, float top, float height, bool capped, int
     }
     if (capped) {
         if (base > 0.0F) {
-            disc_at(out, {0, -0.5F * height, 0}, {1, 0, 0}, {0, 0, 1}, base, segments);
+            disc_at(out, {0, -0.5F * height, 0}, {0, 0, 1}, {1, 0, 0}, base, segments, true);
         }
         if (top > 0.0F) {
             disc_at(out, {0, 0.5F * height, 0}, {0, 0, 1}, {1, 0, 0}, top, segments);

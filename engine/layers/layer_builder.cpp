@@ -638,7 +638,7 @@ private:
                         const double w = area / 3.0;
                         const double e = luminance(vertex.front.irradiance);
                         const double level = e + settings_.light_floor;
-                        error += w * vertex.front.variance / (level * level);
+                        error += level > 0.0 ? w * vertex.front.variance / (level * level) : 0.0;
                         area_sum += w;
                         const double radiance = luminance(rho * vertex.front.irradiance) / kPiD;
                         // Outer sides and closed cupboards are dark and not what anyone looks at.

@@ -18,8 +18,13 @@ constexpr unsigned kOpaqueMask = 1; // stops light
 constexpr unsigned kFilterMask = 2; // glass, cut-outs, blended surfaces: some light goes through
 constexpr int kMaxCrossings = 64;   // panes and leaves in a row; beyond it the light is taken as absorbed
 
-// Ends of a visibility segment are pulled in by this, metres: below any wall's thickness, above float rounding at 100 m.
+// Ends of a visibility segment are pulled in by this, metres: below any wall's thickness, above float rounding at 100 m. In
+// larger models it grows with the distance from the origin as rounding does, or surfaces would shade themselves.
 constexpr float kEndOffset = 2e-4F;
+constexpr float kRelativeOffset = 5e-7F; // about four roundings
+float end_offset(const vec3& p) {
+    return std::max(kEndOffset, kRelativeOffset * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
+}
 
 bool lets_light_through(const Material& m) { return m.transmission > 0.0F || m.alpha_mode != Material::Alpha::Opaque; }
 
@@ -76,7 +81,9 @@ struct RayScene::Impl {
     void collect() {
         const DBox3 world = scene.bounds();
         extent = world.diagonal();
-        origin = world.empty() ? dvec3(0.0) : glm::round(world.centre());
+        // floor(x + 0.5), not round(): halves go the same way on both sides of zero, so a moved scene gives the same
+        // numbers.
+        origin = world.empty() ? dvec3(0.0) : glm::floor(world.centre() + 0.5);
         std::map<const MeshData*, bool> closed;
         std::map<ShapeId, std::shared_ptr<const MeshData>> tessellated;
         for (const NodeId id : scene.in_tree_order()) {
@@ -366,15 +373,16 @@ bool RayScene::occluded(const vec3& from, const vec3& to) const { return max_com
 Rgb RayScene::transmittance(const vec3& from, const vec3& to) const {
     const vec3 d = to - from;
     const float length = glm::length(d);
-    const float offset = std::min(kEndOffset, 0.1F * length);
     if (!(length > 0.0F)) {
         return Rgb(1.0F);
     }
-    return impl_->transmit(*this, from, d / length, offset, length - offset);
+    const float most = 0.1F * length;
+    return impl_->transmit(*this, from, d / length, std::min(end_offset(from), most),
+                           length - std::min(end_offset(to), most));
 }
 
 Rgb RayScene::transmittance_to_infinity(const vec3& from, const vec3& direction) const {
-    return impl_->transmit(*this, from, direction, kEndOffset, std::numeric_limits<float>::infinity());
+    return impl_->transmit(*this, from, direction, end_offset(from), std::numeric_limits<float>::infinity());
 }
 
 Hit RayScene::first_pane(const vec3& from, const vec3& direction) const {

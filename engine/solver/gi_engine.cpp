@@ -304,8 +304,10 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     };
 
     LinkSet links(s.hierarchy);
+    statistics.converged = s.hierarchy.empty();             // where nothing is, nothing is left to solve
+    const double step = 0.32 / (quality.refine_rounds + 1); // of progress: one per round and one for the first picture
     for (int round = 0; round < quality.refine_rounds && !s.hierarchy.empty(); ++round) {
-        const double at = 0.08 + 0.32 * round / quality.refine_rounds;
+        const double at = 0.08 + step * (round == 0 ? 0 : round + 1);
         timer.next("links");
         context.progress("links", at);
         RefineSettings refine = quality.refine;
@@ -319,7 +321,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
             return stopped();
         }
         timer.next("gather");
-        context.progress("gather", at + 0.25 / quality.refine_rounds);
+        context.progress("gather", at + 0.6 * step);
         Transport transport(s.hierarchy, links.links());
         transport.close_rows(s.enclosed_leaves(transport.leaves(), context));
         const SolveReport report =
@@ -339,7 +341,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         }
         if (round == 0) {
             s.solved = true;
-            LayerSet first = layers(quality.first_layers, 0.2, 0.3);
+            LayerSet first = layers(quality.first_layers, at + step, at + 2.0 * step);
             timer.stop();
             if (!first.complete) {
                 return stopped();

@@ -189,8 +189,12 @@ std::vector<std::byte> encode_solution(const Solution& solution, const Scene& sc
     header.raw_size = out.bytes.size();
     std::vector<std::byte> packed(sizeof(Header) + ZSTD_compressBound(out.bytes.size()));
     std::memcpy(packed.data(), &header, sizeof header);
-    const std::size_t size =
-        ZSTD_compress(packed.data() + sizeof header, packed.size() - sizeof header, out.bytes.data(), out.bytes.size(), 3);
+    // The frame's checksum tells damage that would still decompress; without it flipped bits became other light.
+    const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> compressor(ZSTD_createCCtx(), &ZSTD_freeCCtx);
+    ZSTD_CCtx_setParameter(compressor.get(), ZSTD_c_compressionLevel, 3);
+    ZSTD_CCtx_setParameter(compressor.get(), ZSTD_c_checksumFlag, 1);
+    const std::size_t size = ZSTD_compress2(compressor.get(), packed.data() + sizeof header, packed.size() - sizeof header,
+                                            out.bytes.data(), out.bytes.size());
     packed.resize(ZSTD_isError(size) != 0U ? 0 : sizeof header + size);
     return packed;
 }
