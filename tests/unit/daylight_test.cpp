@@ -12,6 +12,7 @@ TEST(Daylight, IsMissingUntilSomethingEmits) {
     const NodeId floor = test::add_rectangle(scene, "floor", {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, 4, 4, white);
     EXPECT_TRUE(has_no_light(scene));
     scene.materials.find(white)->emissive_color = Rgb(1.0F);
+    scene.materials.find(white)->emissive_strength = 100.0F;
     EXPECT_FALSE(has_no_light(scene));
     scene.nodes.find(floor)->visible = false;
     EXPECT_TRUE(has_no_light(scene)) << "a hidden lamp gives no light";
