@@ -147,6 +147,7 @@ TEST(ViewScene, LayerIsUsedUntilItsShapeChanges) {
     layer->irradiance_front.assign(layer->mesh->positions.size(), Rgb(100.0F));
     auto solution = std::make_shared<Solution>();
     solution->revision = 4;
+    solution->mean_radiance = 30.0;
     solution->surfaces = {layer};
     ViewScene view;
     view.sync(scene, solution);
@@ -166,6 +167,23 @@ TEST(ViewScene, LayerIsUsedUntilItsShapeChanges) {
     newer->revision = 5;
     view.sync(scene, newer);
     EXPECT_EQ(view.items()[0].layer, layer);
+}
+
+TEST(ViewScene, WhatHasNoLightIsShownAsNotLitYet) {
+    Scene scene = one_polygon(false);
+    auto layer = std::make_shared<SurfaceLayer>();
+    layer->node = scene.roots.front();
+    layer->mesh =
+        std::make_shared<DisplayMesh>(make_display_mesh(*scene.shapes.find(scene.nodes.find(layer->node)->shape), 0));
+    layer->irradiance_front.assign(layer->mesh->positions.size(), Rgb(0.0F));
+    auto solution = std::make_shared<Solution>();
+    solution->surfaces = {layer};
+    ViewScene view;
+    view.sync(scene, solution);
+    EXPECT_EQ(view.items().at(0).layer, nullptr);
+    scene.environment.sky_radiance = Rgb(1.0F); // now dark is what it is
+    view.sync(scene, solution);
+    EXPECT_EQ(view.items().at(0).layer, layer);
 }
 
 TEST(Gizmo, HandlesAreWhereTheyAreDrawnAtAnyDistance) {
