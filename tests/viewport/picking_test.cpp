@@ -181,7 +181,8 @@ TEST(ViewScene, WhatHasNoLightIsShownAsNotLitYet) {
     ViewScene view;
     view.sync(scene, solution);
     EXPECT_EQ(view.items().at(0).layer, nullptr);
-    scene.environment.sky_radiance = Rgb(1.0F); // now dark is what it is
+    solution = std::make_shared<Solution>(*solution);
+    solution->mean_radiance = 3.0; // light elsewhere: here it is dark
     view.sync(scene, solution);
     EXPECT_EQ(view.items().at(0).layer, layer);
 }

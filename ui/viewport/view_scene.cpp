@@ -1,7 +1,5 @@
 #include "ui/viewport/view_scene.h"
 
-#include "engine/scene/daylight.h"
-
 #include <QThreadPool>
 
 #include <algorithm>
@@ -72,8 +70,9 @@ std::shared_ptr<const MeshBvh> ViewScene::bvh_of(const std::shared_ptr<const Dis
 
 void ViewScene::sync(const Scene& scene, const std::shared_ptr<const Solution>& solution) {
     std::map<std::pair<NodeId, std::uint32_t>, const std::shared_ptr<const SurfaceLayer>*> layers;
-    // Without any light the truth is black, in which nobody finds a wall to put a lamp on: shown as not lit yet.
-    const bool black = solution && !(solution->mean_radiance > 0.0) && has_no_light(scene);
+    // Without any light the truth is black, in which nobody finds a wall to put a lamp on: shown as not lit yet, also while
+    // the first light is on its way.
+    const bool black = solution && !(solution->mean_radiance > 0.0);
     if (solution && !black) {
         for (const auto& layer : solution->surfaces) {
             const auto barrier = valid_from_.find(layer->node);
