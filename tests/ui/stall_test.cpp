@@ -29,6 +29,7 @@ TEST_P(Stalls, AreNamedWhileASceneOpensAndIsLit) {
             std::printf("[ stall    ]   %6.0f ms  %s\n", ms, what.c_str());
         }
     }
+    EXPECT_EQ(application->paints_on_news(), 0);
     EXPECT_FALSE(scene().nodes.empty());
 }
 INSTANTIATE_TEST_SUITE_P(Interiors, Stalls, testing::Values("office_simple.glb", "small_house.glb", "wooden_staircase.glb"),

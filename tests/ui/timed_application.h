@@ -2,18 +2,19 @@
 #pragma once
 
 #include <QApplication>
-#include <QElapsedTimer>
 #include <QEvent>
 #include <QMetaEnum>
 #include <QOpenGLWidget>
 
 #include <algorithm>
+#include <ctime>
 #include <map>
 #include <string>
 
 namespace atrium::ui {
 
-/// Painting is kept apart: on a machine that draws in software it is the rasteriser's time. UI thread only.
+/// Counts the processor time of this thread, not the clock on the wall: the solver's threads and other programs may hold the
+/// cores. Painting is kept apart: on a machine that draws in software it is the rasteriser's time. UI thread only.
 class TimedApplication : public QApplication {
 public:
     using QApplication::QApplication;
@@ -22,13 +23,17 @@ public:
         const QEvent::Type type = event->type();
         const std::string name = receiver->metaObject()->className();
         const bool painting = type == QEvent::Paint || type == QEvent::UpdateRequest || type == QEvent::Expose;
-        QElapsedTimer clock;
-        clock.start();
+        if (top) {
+            top_is_news_ = type == QEvent::MetaCall && name == "atrium::ui::EngineLink";
+        } else if (type == QEvent::Paint && top_is_news_) {
+            ++paints_on_news_;
+        }
+        const double before = processor_ms();
         ++depth_;
         const bool done = QApplication::notify(receiver, event);
         --depth_;
         if (top && on_) {
-            const double ms = double(clock.nsecsElapsed()) * 1e-6;
+            const double ms = processor_ms() - before;
             auto& worst =
                 worst_[(painting ? "painting " : "") + name + " " + QMetaEnum::fromType<QEvent::Type>().valueToKey(type)];
             worst = std::max(worst, ms);
@@ -37,10 +42,13 @@ public:
     }
     void start() {
         worst_.clear();
+        paints_on_news_ = 0;
         on_ = true;
     }
     /// Milliseconds of the longest event of each kind since start().
     [[nodiscard]] const std::map<std::string, double>& worst() const { return worst_; }
+    /// Widgets painted while news from the engine was handled, instead of with the next frame.
+    [[nodiscard]] int paints_on_news() const { return paints_on_news_; }
     [[nodiscard]] double worst_but_painting() const {
         double out = 0;
         for (const auto& [what, ms] : worst_) {
@@ -50,8 +58,15 @@ public:
     }
 
 private:
+    static double processor_ms() {
+        timespec now{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+        return double(now.tv_sec) * 1e3 + double(now.tv_nsec) * 1e-6;
+    }
     int depth_ = 0;
     bool on_ = false;
+    bool top_is_news_ = false;
+    int paints_on_news_ = 0;
     std::map<std::string, double> worst_;
 };
 

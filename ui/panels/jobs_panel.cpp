@@ -150,7 +150,11 @@ void JobsPanel::refresh_status() {
     state_->setText(light_state_text(engine_));
     toggle_->setText(solving ? tr("Stop") : tr("Resume"));
     toggle_->setEnabled(solving || engine_.stale());
+    // QProgressBar paints at once when its value changes, and the whole window with its 3D view comes along: 30 to 400 ms in
+    // software, twenty times a second. With updates off it waits for the next frame like everything else.
+    bar_->setUpdatesEnabled(false);
     bar_->setValue(solving ? int(status.fraction * 1000) : (engine_.stale() ? 0 : 1000));
+    bar_->setUpdatesEnabled(true);
     QString phase;
     if (solving) {
         phase = phase_text(status.phase);
@@ -230,7 +234,8 @@ LightBadge::LightBadge(EngineLink& engine, QWidget* parent) : QWidget(parent), e
 void LightBadge::refresh() {
     QString text = light_state_text(engine_);
     const std::shared_ptr<const Solution> solution = engine_.solution();
-    if (solution && solution->final && solution->statistics.error_estimate > 0) {
+    // While the next light is on its way the figure would be that of the last one.
+    if (light_state(engine_) == LightState::UpToDate && solution && solution->statistics.error_estimate > 0) {
         text += tr(", error about %1").arg(percent_text(solution->statistics.error_estimate));
     }
     text_->setText(text);

@@ -8,8 +8,9 @@ namespace {
 constexpr double kLowestRoom = 2.0; ///< metres
 constexpr double kNarrowestRoom = 1.5;
 
-/// Walls lie within this of the room's bounds, in metres and as a share of its size.
-constexpr double kDepth = 0.5;
+/// Walls lie within this of the room's bounds, in metres and as a share of its size. Not a round number: what lies in the
+/// very plane of the cut would come and go by rounding, and people build on round numbers.
+constexpr double kDepth = 0.537;
 constexpr double kDepthShare = 0.15;
 
 /// What lies in that layer goes with the wall when it is thin (a window, a picture) or extends over much of the room.

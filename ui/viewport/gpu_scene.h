@@ -37,6 +37,9 @@ public:
 
     /// Drops buffers that `view` no longer uses. New ones are uploaded when first drawn.
     void collect(const ViewScene& view, const Scene& scene);
+    /// Starts a frame. Textures are uploaded a few a frame: while textures_pending(), the next frame shows more of them.
+    void begin_frame() { textures_.begin_frame(); }
+    [[nodiscard]] bool textures_pending() const { return textures_.pending(); }
     /// Opaque surfaces, then blended ones from back to front. Returns how many surfaces were drawn.
     int draw(const ViewScene& view, const Scene& scene, const DrawView& from);
     /// Flat silhouettes in one colour of the items that `wanted` accepts.

@@ -121,6 +121,7 @@ void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, i
     gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     DrawView with_background = from;
     with_background.background = ground;
+    gpu_.begin_frame();
     gpu_.draw(in.view, in.scene, with_background);
     if (in.wireframe) {
         gpu_.draw_edges(in.view, from);
@@ -136,7 +137,7 @@ void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, i
         picture_milliseconds_ = double(clock.nsecsElapsed()) * 1e-6;
     }
     picture_samples_ = samples;
-    picture_good_ = true;
+    picture_good_ = !gpu_.textures_pending();
     ++pictures_drawn_;
 }
 

@@ -43,6 +43,8 @@ public:
 
     /// True on a software rasteriser, where the interactive picture has no smoothed edges.
     [[nodiscard]] bool software() const { return software_; }
+    /// True when the last picture lacks something that the next one shows.
+    [[nodiscard]] bool incomplete() const { return !picture_good_; }
     /// True when the last picture would gain from `refine` and is quick enough to draw that nobody waits for it.
     [[nodiscard]] bool wants_refining() const { return software_ && picture_samples_ == 0 && picture_milliseconds_ < 150.0; }
     /// Number of times that the scene itself was drawn, for tests and measurements.

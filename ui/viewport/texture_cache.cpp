@@ -1,5 +1,7 @@
 #include "ui/viewport/texture_cache.h"
 
+#include <QElapsedTimer>
+
 #include <algorithm>
 #include <vector>
 
@@ -8,6 +10,9 @@ namespace {
 
 /// Pictures are halved until no side is longer: a room has dozens of textures, and no screen shows more of one.
 constexpr int kLargestSide = 4096;
+
+/// Uploads of one frame, milliseconds; one texture is always taken, so that all get their turn.
+constexpr double kUploadMs = 20.0;
 
 GLint wrap_mode(Texture::Wrap wrap) {
     switch (wrap) {
@@ -40,6 +45,11 @@ template <class T> std::vector<T> to_rgba(const std::vector<T>& samples, const I
 
 } // namespace
 
+void TextureCache::begin_frame() {
+    spent_ms_ = 0;
+    pending_ = false;
+}
+
 unsigned TextureCache::get(Gl& gl, const Scene& scene, TextureId id) {
     const Texture* texture = scene.textures.find(id);
     if (texture == nullptr || !texture->image) {
@@ -56,6 +66,12 @@ unsigned TextureCache::get(Gl& gl, const Scene& scene, TextureId id) {
         entry.wrap_v == texture->wrap_v && entry.nearest == texture->nearest) {
         return entry.name;
     }
+    if (spent_ms_ > kUploadMs) {
+        pending_ = true;
+        return 0;
+    }
+    QElapsedTimer clock;
+    clock.start();
     gl.glDeleteTextures(1, &entry.name);
     entry = {texture->image, texture->wrap_u, texture->wrap_v, texture->nearest, 0};
     gl.glGenTextures(1, &entry.name);
@@ -80,6 +96,7 @@ unsigned TextureCache::get(Gl& gl, const Scene& scene, TextureId id) {
     gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
                        texture->nearest ? GL_NEAREST_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_LINEAR);
     gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, texture->nearest ? GL_NEAREST : GL_LINEAR);
+    spent_ms_ += double(clock.nsecsElapsed()) * 1e-6;
     return entry.name;
 }
 

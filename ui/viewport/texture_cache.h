@@ -11,7 +11,12 @@ namespace atrium::ui {
 /// All functions need the context current.
 class TextureCache {
 public:
-    /// GL name of a texture, uploaded on first use or when its image was exchanged; 0 when it has no image.
+    /// Starts a frame: uploads may take a little time again.
+    void begin_frame();
+    /// True when a texture was left for the next frame.
+    [[nodiscard]] bool pending() const { return pending_; }
+    /// GL name of a texture, uploaded on first use or when its image was exchanged; 0 when it has no image, or when this
+    /// frame has spent its time on others.
     unsigned get(Gl& gl, const Scene& scene, TextureId id);
     /// Drops textures that the scene no longer has.
     void collect(Gl& gl, const Scene& scene);
@@ -26,6 +31,8 @@ private:
         unsigned name = 0;
     };
     std::unordered_map<TextureId, Entry> entries_;
+    double spent_ms_ = 0; ///< on uploads in this frame
+    bool pending_ = false;
 };
 
 } // namespace atrium::ui

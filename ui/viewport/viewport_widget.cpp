@@ -569,6 +569,9 @@ void ViewportWidget::paintGL() {
                   ratio,
                   defaultFramebufferObject()};
     impl_->renderer.paint(in);
+    if (impl_->renderer.incomplete()) {
+        QTimer::singleShot(0, this, [this] { update(); }); // after the events that wait
+    }
     if (impl_->renderer.wants_refining() && !impl_->refine) {
         impl_->refine_timer.start();
     }
