@@ -2,6 +2,7 @@
 
 #include "app/cli_stats.h"
 #include "engine/base/parallel.h"
+#include "engine/scene/daylight.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -62,6 +63,7 @@ void add_solve_options(CLI::App& command, SolveArguments& a) {
         ->check(CLI::IsMember({"default", "paper"}))
         ->group(group);
     command.add_option("--stats", a.stats, "Write statistics as JSON to this file, - for standard output")->group(group);
+    command.add_flag("--daylight", a.daylight, "Add a sun and a sky where the file has no light of its own")->group(group);
     command.add_flag("--progress", a.progress, "Report progress on standard error")->group(group);
 }
 
@@ -85,6 +87,18 @@ tl::expected<Solved, int> open_scene(const std::string& file, const SolveArgumen
     }
     solved.scene = std::move(loaded->scene);
     solved.load_seconds = seconds_since_start() - before;
+    if (has_no_light(solved.scene)) {
+        if (arguments.daylight) {
+            const auto added = apply(solved.scene, add_daylight(solved.scene));
+            if (!added) {
+                return tl::unexpected(refuse(added.error()));
+            }
+            loaded->solution.clear();
+        } else {
+            complain(fmt::format("warning: {}: nothing in it gives light, so all is dark. --daylight adds a sun and a sky",
+                                 file));
+        }
+    }
     if (!loaded->solution.empty()) {
         auto stored = decode_solution(loaded->solution, solved.scene);
         if (!stored) {

@@ -24,6 +24,7 @@ struct SolveArguments {
     std::string mode = "default";
     std::string stats;
     bool progress = false;
+    bool daylight = false; ///< add a sun and a sky where the file has no light
 };
 void add_solve_options(CLI::App& command, SolveArguments& arguments);
 

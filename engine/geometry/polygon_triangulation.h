@@ -15,7 +15,8 @@ struct PolygonTriangles {
 };
 
 /// Ear clipping; holes are joined to the outer ring by bridges (Eberly, "Triangulation by Ear Clipping"). Rings in either
-/// orientation are accepted, they may touch. O(n^2) for simple rings; self-intersecting rings give some triangulation of what is left, never a hang.
+/// orientation are accepted, they may touch. O(n^2) for simple rings; self-intersecting rings give some triangulation of
+/// what is left, never a hang.
 PolygonTriangles triangulate(const Polygon& polygon);
 
 } // namespace atrium

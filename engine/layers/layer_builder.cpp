@@ -70,8 +70,8 @@ public:
         bool complete = sample(all, from, from + 0.5 * (to - from));
         for (int level = 0; complete && level < 6 && added_ < settings_.max_vertices; ++level) {
             const double step = 0.5 * (to - from) / 6.0;
-            if (!split_by_contrast(from + 0.5 * (to - from) + step * level, from + 0.5 * (to - from) + step * (level + 1),
-                                   complete)) {
+            if (!split_by_contrast(level == 0, from + 0.5 * (to - from) + step * level,
+                                   from + 0.5 * (to - from) + step * (level + 1), complete)) {
                 break;
             }
         }
@@ -236,33 +236,64 @@ private:
                 add(m[2], m[1], t.v[2]);
                 add(m[0], m[1], m[2]);
             } else {
-                // Turn so that the pattern starts at edge 0.
-                std::size_t k = 0;
-                if (count == 1) {
-                    while (m[k] == Element::kNone) {
-                        ++k;
-                    }
-                    const std::uint32_t a = t.v[k], b = t.v[(k + 1) % 3], c = t.v[(k + 2) % 3];
-                    add(a, m[k], c);
-                    add(m[k], b, c);
+                // close_split() has seen to it that the longest edge is among those split: halve there first, then the half
+                // that has the other split edge. Angles stay bounded however often this is done (Rivara 1984).
+                const std::size_t k = longest_edge(mesh, t);
+                const std::uint32_t a = t.v[k], b = t.v[(k + 1) % 3], c = t.v[(k + 2) % 3];
+                const std::uint32_t ab = m[k], bc = m[(k + 1) % 3], ca = m[(k + 2) % 3];
+                if (ca != Element::kNone) {
+                    add(a, ab, ca);
+                    add(ca, ab, c);
                 } else {
-                    while (m[k] != Element::kNone) {
-                        ++k; // k = the edge that stays whole, from a to b
-                    }
-                    const std::uint32_t a = t.v[k], b = t.v[(k + 1) % 3], c = t.v[(k + 2) % 3];
-                    const std::uint32_t bc = m[(k + 1) % 3], ca = m[(k + 2) % 3];
-                    add(bc, c, ca);
-                    const auto length = [&](std::uint32_t p, std::uint32_t q) {
-                        return glm::length(mesh.vertices[p].position - mesh.vertices[q].position);
-                    };
-                    if (length(a, bc) <= length(b, ca)) { // the shorter diagonal
-                        add(a, b, bc);
-                        add(a, bc, ca);
-                    } else {
-                        add(a, b, ca);
-                        add(b, bc, ca);
-                    }
+                    add(a, ab, c);
                 }
+                if (bc != Element::kNone) {
+                    add(ab, b, bc);
+                    add(ab, bc, c);
+                } else {
+                    add(ab, b, c);
+                }
+            }
+        }
+    }
+
+    // Index of a triangle's longest edge; of equal ones the one with the smallest welded key, so that neighbours agree.
+    std::size_t longest_edge(const NodeMesh& mesh, const Triangle& t) const {
+        std::size_t best = 0;
+        float best_length = -1.0F;
+        std::uint64_t best_key = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = t.v[k], b = t.v[(k + 1) % 3];
+            const float length = edge_length(mesh, a, b);
+            const std::uint64_t key = edge_key(mesh.vertices[a].weld, mesh.vertices[b].weld);
+            if (length > best_length || (length == best_length && key < best_key)) {
+                best = k;
+                best_length = length;
+                best_key = key;
+            }
+        }
+        return best;
+    }
+
+    // Grows a set of split edges until every triangle that has one also splits its longest edge, and opens all triangles
+    // concerned: no slivers, and no T-vertex on a triangle that was thought finished.
+    void close_split(NodeMesh& mesh, SplitSet& split) const {
+        for (bool grown = !split.empty(); grown;) {
+            grown = false;
+            for (Triangle& t : mesh.triangles) {
+                bool any = false;
+                for (std::size_t k = 0; k < 3 && !any; ++k) {
+                    any = split.contains(edge_key(mesh.vertices[t.v[k]].weld, mesh.vertices[t.v[(k + 1) % 3]].weld));
+                }
+                if (!any) {
+                    continue;
+                }
+                t.open = true;
+                const std::size_t k = longest_edge(mesh, t);
+                const std::uint64_t key = edge_key(mesh.vertices[t.v[k]].weld, mesh.vertices[t.v[(k + 1) % 3]].weld);
+                const auto [it, fresh] = split.try_emplace(key, mesh.welds);
+                mesh.welds += fresh ? 1 : 0;
+                grown = grown || fresh;
             }
         }
     }
@@ -287,9 +318,7 @@ private:
             if (split.empty()) {
                 break;
             }
-            for (Triangle& t : mesh.triangles) {
-                t.open = true;
-            }
+            close_split(mesh, split);
             Middles middles;
             cut(mesh, split, middles);
         }
@@ -319,16 +348,26 @@ private:
         return !context_.should_stop();
     }
 
+    // Where the light of a vertex is sampled: moved a little into its triangles, so that walls meeting there do not hide it,
+    // but never behind the side's own surface (on a ball the triangles' middles lie below the vertex).
+    [[nodiscard]] static vec3 sample_position(const Vertex& v, const vec3& n) {
+        vec3 inwards = v.triangles > 0.0F ? v.towards / v.triangles : vec3(0.0F);
+        inwards -= n * std::min(glm::dot(inwards, n), 0.0F);
+        const float length = glm::length(inwards);
+        return length > 0.0F ? v.position + inwards * std::min(0.1F, kPullIn / length) : v.position;
+    }
+
     void sample_vertex(Vertex& v) const {
-        const vec3 mean = v.triangles > 0.0F ? v.towards / v.triangles : vec3(0.0F);
-        const float length = glm::length(mean);
-        const vec3 p = length > 0.0F ? v.position + mean * std::min(0.1F, kPullIn / length) : v.position;
-        v.front = gather_.irradiance(p, v.normal, settings_.gather);
-        v.front_covered = luminance(v.front.irradiance) < settings_.light_floor && covered(p, v.normal);
+        sample_side(v, v.normal, v.front, v.front_covered);
         if (v.wants_back) {
-            v.back = gather_.irradiance(p, -v.normal, settings_.gather);
-            v.back_covered = luminance(v.back.irradiance) < settings_.light_floor && covered(p, -v.normal);
+            sample_side(v, -v.normal, v.back, v.back_covered);
         }
+    }
+
+    void sample_side(const Vertex& v, const vec3& n, DirectSample& sample, bool& is_covered) const {
+        const vec3 p = sample_position(v, n);
+        sample = gather_.irradiance(p, n, settings_.gather);
+        is_covered = luminance(sample.irradiance) < settings_.light_floor && covered(p, n);
     }
 
     // True where no light can reach because something rests on the surface or encloses the point: every way out of the
@@ -401,11 +440,19 @@ private:
         const float difference = std::max(std::abs(lm - mean), 0.2F * std::abs(la - lb));
         // A difference that the samples' own noise explains is no reason to look closer: it would be noise again.
         const float noise = std::sqrt(m.variance + 0.25F * (a.variance + b.variance));
-        return difference > 2.0F * noise ? difference / std::max({mean, lm, floor}) : 0.0F;
+        return difference > 1.5F * noise ? difference / std::max({mean, lm, floor}) : 0.0F;
+    }
+
+    [[nodiscard]] bool alike(const Vertex& a, const Vertex& b) const {
+        const auto close = [&](const DirectSample& p, const DirectSample& q) {
+            const float x = luminance(p.irradiance), y = luminance(q.irradiance);
+            return std::abs(x - y) <= settings_.contrast * std::max({x, y, settings_.light_floor});
+        };
+        return a.front_covered == b.front_covered && close(a.front, b.front) && (!a.wants_back || close(a.back, b.back));
     }
 
     // One level: samples the midpoints of all open edges, splits those that deviate. False when nothing was split.
-    bool split_by_contrast(double from, double to, bool& complete) {
+    bool split_by_contrast(bool first_look, double from, double to, bool& complete) {
         struct Candidate {
             std::size_t mesh;
             std::uint32_t a, b; // vertex pair
@@ -424,7 +471,13 @@ private:
                     3.0F;
                 for (std::size_t k = 0; k < 3; ++k) {
                     const std::uint32_t a = std::min(t.v[k], t.v[(k + 1) % 3]), b = std::max(t.v[k], t.v[(k + 1) % 3]);
-                    if (edge_length(mesh, a, b) <= 2.0F * settings_.smallest_edge) {
+                    const float length = edge_length(mesh, a, b);
+                    if (length <= 2.0F * settings_.smallest_edge) {
+                        continue;
+                    }
+                    // The file's own short edges are looked at only where their ends already differ: fine meshes have
+                    // far more edges than light has detail.
+                    if (first_look && length <= 0.25F * settings_.base_edge && alike(mesh.vertices[a], mesh.vertices[b])) {
                         continue;
                     }
                     const auto [it, fresh] = seen.try_emplace(edge_key(a, b), candidates.size());
@@ -479,6 +532,9 @@ private:
                 split[c.mesh].try_emplace(edge_key(mesh.vertices[c.a].weld, mesh.vertices[c.b].weld), mesh.welds);
             mesh.welds += fresh ? 1 : 0;
         }
+        for (std::size_t m = 0; m < meshes_.size(); ++m) {
+            close_split(meshes_[m], split[m]);
+        }
         // Sampled midpoints of every split edge are kept, also those of a coincident edge that asked for nothing itself.
         for (const Candidate& c : candidates) {
             NodeMesh& mesh = meshes_[c.mesh];
@@ -496,13 +552,7 @@ private:
                 }
                 continue;
             }
-            // A split edge may belong to a triangle that was closed before: open it again, or a T-vertex would stay.
             NodeMesh& mesh = meshes_[m];
-            for (Triangle& t : mesh.triangles) {
-                for (std::size_t k = 0; k < 3 && !t.open; ++k) {
-                    t.open = split[m].contains(edge_key(mesh.vertices[t.v[k]].weld, mesh.vertices[t.v[(k + 1) % 3]].weld));
-                }
-            }
             const std::size_t before = mesh.vertices.size();
             cut(mesh, split[m], middles[m]);
             for (std::size_t v = before; v < mesh.vertices.size(); ++v) {
@@ -533,7 +583,7 @@ private:
                     const DirectSample& y = mesh.vertices[b].*sample;
                     const float noise = x.variance + y.variance;
                     const float d = luminance(x.irradiance) - luminance(y.irradiance);
-                    if (!(noise > 0.0F) || d * d > 9.0F * noise) {
+                    if (!(noise > 0.0F) || d * d > 2.0F * noise) {
                         continue;
                     }
                     // Inner edges are met twice, border edges once: half weights from each triangle.

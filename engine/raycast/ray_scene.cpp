@@ -63,6 +63,7 @@ struct RayScene::Impl {
     std::vector<Counter> counters = std::vector<Counter>(16);
     RTCDevice device = nullptr;
     RTCScene embree = nullptr;
+    RTCScene filters = nullptr; // what lets light through, by itself: most rays meet none of it
     dvec3 origin{0.0};
     double extent = 0.0; // diagonal of the world bounds
     Box3 bounds;
@@ -152,11 +153,26 @@ struct RayScene::Impl {
                 }
                 surface.back_side = !it->second;
             }
+            surface.pane = is_pane(surface, *material);
             triangles += surface.triangles.size();
             materials.push_back(material);
             any_filter = any_filter || lets_light_through(*material);
             surfaces.push_back(std::move(surface));
         }
+    }
+
+    static bool is_pane(const RaySurface& surface, const Material& material) {
+        constexpr std::size_t kMostTriangles = 32; // more is a curved or ornate thing, not a window
+        constexpr float kLeastArea = 0.1F;         // square metres
+        if (classify(material) != MaterialKind::DielectricThin || surface.triangles.size() > kMostTriangles) {
+            return false;
+        }
+        float area = 0.0F;
+        for (const uvec3& t : surface.triangles) {
+            const auto& p = *surface.positions;
+            area += 0.5F * glm::length(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]));
+        }
+        return area >= kLeastArea;
     }
 
     void build() {
@@ -171,8 +187,11 @@ struct RayScene::Impl {
             },
             this);
         embree = rtcNewScene(device);
-        rtcSetSceneFlags(embree, RTC_SCENE_FLAG_ROBUST);
-        rtcSetSceneBuildQuality(embree, RTC_BUILD_QUALITY_MEDIUM);
+        filters = rtcNewScene(device);
+        for (RTCScene scene_part : {embree, filters}) {
+            rtcSetSceneFlags(scene_part, RTC_SCENE_FLAG_ROBUST);
+            rtcSetSceneBuildQuality(scene_part, RTC_BUILD_QUALITY_MEDIUM);
+        }
         for (std::size_t i = 0; i < surfaces.size(); ++i) {
             const RaySurface& s = surfaces[i];
             RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -185,14 +204,19 @@ struct RayScene::Impl {
             rtcSetGeometryMask(geometry, lets_light_through(*materials[i]) ? kFilterMask : kOpaqueMask);
             rtcCommitGeometry(geometry);
             rtcAttachGeometryByID(embree, geometry, unsigned(i));
+            if (lets_light_through(*materials[i])) {
+                rtcAttachGeometryByID(filters, geometry, unsigned(i));
+            }
             rtcReleaseGeometry(geometry);
         }
         rtcCommitScene(embree);
+        rtcCommitScene(filters);
     }
 
     ~Impl() {
         if (embree != nullptr) {
             rtcReleaseScene(embree);
+            rtcReleaseScene(filters);
         }
         if (device != nullptr) {
             rtcSetDeviceMemoryMonitorFunction(device, nullptr, nullptr);
@@ -225,15 +249,15 @@ struct RayScene::Impl {
         return ray.tfar < 0.0F;
     }
 
-    Hit hit(const vec3& from, const vec3& direction, float tnear, float tfar, unsigned mask) {
+    Hit hit(RTCScene where, const vec3& from, const vec3& direction, float tnear, float tfar) {
         count_ray();
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         RTCRayHit query;
-        fill(query.ray, from, direction, tnear, tfar, mask);
+        fill(query.ray, from, direction, tnear, tfar, kOpaqueMask | kFilterMask);
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(embree, &context, &query);
+        rtcIntersect1(where, &context, &query);
         Hit out;
         if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
             return out;
@@ -275,7 +299,7 @@ struct RayScene::Impl {
             return through;
         }
         for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
-            const Hit h = hit(from, direction, tnear, tfar, kFilterMask);
+            const Hit h = hit(filters, from, direction, tnear, tfar);
             if (!h) {
                 return through;
             }
@@ -331,7 +355,7 @@ std::uint64_t RayScene::rays_traced() const {
 Hit RayScene::nearest(const Ray& ray) const {
     float tnear = 0.0F;
     for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
-        const Hit h = impl_->hit(ray.origin, ray.direction, tnear, ray.tmax, kOpaqueMask | kFilterMask);
+        const Hit h = impl_->hit(impl_->embree, ray.origin, ray.direction, tnear, ray.tmax);
         if (!h) {
             return h;
         }
@@ -359,6 +383,18 @@ Rgb RayScene::transmittance(const vec3& from, const vec3& to) const {
 
 Rgb RayScene::transmittance_to_infinity(const vec3& from, const vec3& direction) const {
     return impl_->transmit(*this, from, direction, end_offset(from), std::numeric_limits<float>::infinity());
+}
+
+Hit RayScene::first_pane(const vec3& from, const vec3& direction) const {
+    float tnear = 0.0F;
+    for (int crossing = 0; impl_->any_filter && crossing < kMaxCrossings; ++crossing) {
+        const Hit h = impl_->hit(impl_->filters, from, direction, tnear, std::numeric_limits<float>::infinity());
+        if (!h || impl_->surfaces[h.surface].pane) {
+            return h;
+        }
+        tnear = h.t + std::max(1e-5F, 1e-6F * h.t);
+    }
+    return {};
 }
 
 vec4 RayScene::base_color(std::uint32_t surface, std::uint32_t triangle, const vec2& barycentric) const {

@@ -19,10 +19,11 @@ struct RaySurface {
     std::shared_ptr<const MeshData> mesh;               ///< local coordinates
     std::shared_ptr<const std::vector<vec3>> positions; ///< mesh->positions in engine coordinates, shared by parts
     std::vector<uvec3> triangles; ///< vertex indices, counter-clockwise from the front; degenerate ones are left out
-    bool back_side = false;       ///< the back reflects: double-sided material on a mesh that bounds no solid
-    dmat4 to_engine{1.0};         ///< local to engine coordinates
-    dmat3 normal_matrix{1.0};     ///< inverse transpose of its linear part
-    bool mirrored = false;        ///< negative determinant: winding (and so the front side) is flipped back
+    bool pane = false;      ///< a sheet of thin glass large enough to be a window: the sky is looked for through it by name
+    bool back_side = false; ///< the back reflects: double-sided material on a mesh that bounds no solid
+    dmat4 to_engine{1.0};   ///< local to engine coordinates
+    dmat3 normal_matrix{1.0}; ///< inverse transpose of its linear part
+    bool mirrored = false;    ///< negative determinant: winding (and so the front side) is flipped back
 };
 
 struct Ray {
@@ -72,6 +73,9 @@ public:
     [[nodiscard]] Rgb transmittance(const vec3& from, const vec3& to) const;
     /// The same along a ray that never ends (sun, sky).
     [[nodiscard]] Rgb transmittance_to_infinity(const vec3& from, const vec3& direction) const;
+
+    /// First pane that a ray without end crosses, whatever stands in between; none when it crosses no pane.
+    [[nodiscard]] Hit first_pane(const vec3& from, const vec3& direction) const;
 
     /// Material of a surface; the default material where it has none.
     [[nodiscard]] const Material& material(std::uint32_t surface) const;

@@ -9,6 +9,7 @@
 #include <QDragEnterEvent>
 #include <QFile>
 #include <QImage>
+#include <QLabel>
 #include <QLineEdit>
 #include <QMessageBox>
 #include <QMimeData>
@@ -169,6 +170,45 @@ TEST_F(WindowTest, WheelChangesOnlyTheFocusedField) {
     EXPECT_NEAR(node(shelf).transform.translation.y, before + 0.2, 1e-9);
     window->tree().view()->setFocus(); // ends the burst
     EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(WindowTest, DraggingAFieldsLabelIsOneEntryAndEscRollsBack) {
+    open_sample();
+    const NodeId shelf = named("Shelf");
+    select(shelf);
+    NumberField* x = field("Position X");
+    QLabel* label = nullptr;
+    for (QLabel* candidate : window->findChildren<QLabel*>()) {
+        if (candidate->buddy() == x) {
+            label = candidate;
+        }
+    }
+    ASSERT_NE(label, nullptr);
+    const auto move = [label](int pixels) {
+        const QPointF at(2 + pixels, 4);
+        QMouseEvent event(QEvent::MouseMove, at, label->mapToGlobal(at), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
+        QApplication::sendEvent(label, &event);
+    };
+    const double before = node(shelf).transform.translation.x;
+    QTest::mousePress(label, Qt::LeftButton, {}, {2, 4});
+    for (int i = 1; i <= 40; ++i) {
+        move(i);
+    }
+    EXPECT_EQ(entries(), 0);
+    QTest::mouseRelease(label, Qt::LeftButton, {}, {42, 4});
+    EXPECT_EQ(entries(), 1);
+    EXPECT_NEAR(node(shelf).transform.translation.x, before + 0.25, 1e-9) << "eight pixels a step of 5 cm";
+    settle();
+    QTest::mousePress(label, Qt::LeftButton, {}, {2, 4});
+    move(80);
+    EXPECT_GT(node(shelf).transform.translation.x, before + 0.5);
+    QTest::keyClick(x, Qt::Key_Escape);
+    QTest::mouseRelease(label, Qt::LeftButton, {}, {82, 4});
+    EXPECT_NEAR(node(shelf).transform.translation.x, before + 0.25, 1e-9);
+    EXPECT_EQ(entries(), 1);
+    settle();
+    QTest::keyClick(x, Qt::Key_Z, Qt::ControlModifier);
+    EXPECT_TRUE(scene() == sample_room()) << "undo reaches the document from a field with nothing half typed";
 }
 
 TEST_F(WindowTest, SeveralObjectsShowMixedValuesAndChangeTogether) {

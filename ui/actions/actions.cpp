@@ -42,6 +42,7 @@ const std::array kTable = {
     ActionInfo{ActionId::AddPointLight, "add_point_light", ATRIUM_TEXT("P&oint Light"), "", "point_light", ATRIUM_TEXT("Add a lamp that shines in all directions")},
     ActionInfo{ActionId::AddSpotLight, "add_spot_light", ATRIUM_TEXT("Spo&t Light"), "", "spot_light", ATRIUM_TEXT("Add a lamp with a cone of light")},
     ActionInfo{ActionId::AddSun, "add_sun", ATRIUM_TEXT("S&un"), "", "sun", ATRIUM_TEXT("Add sunlight")},
+    ActionInfo{ActionId::AddDaylight, "add_daylight", ATRIUM_TEXT("Day&light"), "", "sun", ATRIUM_TEXT("Add a sun and a sky in one step")},
     ActionInfo{ActionId::AddAreaLight, "add_area_light", ATRIUM_TEXT("&Area Light"), "", "area_light", ATRIUM_TEXT("Add a luminous disc")},
     ActionInfo{ActionId::AddCamera, "add_camera", ATRIUM_TEXT("Ca&mera"), "", "camera", ATRIUM_TEXT("Add a camera that sees the present view")},
     ActionInfo{ActionId::ToolSelect, "tool_select", ATRIUM_TEXT("&Select"), "Q", "select", ATRIUM_TEXT("Select objects by clicking"), true},

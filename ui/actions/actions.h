@@ -38,6 +38,7 @@ enum class ActionId : std::uint8_t {
     AddPointLight,
     AddSpotLight,
     AddSun,
+    AddDaylight,
     AddAreaLight,
     AddCamera,
     ToolSelect,

@@ -1,5 +1,7 @@
 #include "ui/actions/edit_controller.h"
 
+#include "engine/scene/daylight.h"
+
 namespace atrium::ui {
 
 namespace {
@@ -144,6 +146,11 @@ void EditController::fix_import(const ImportSuggestion& suggestion) {
     const Command command =
         wrap_roots(document_.scene(), suggestion.unit_scale, suggestion.z_up, tr("Import correction").toStdString());
     apply(command.edit, tr("Correct units and direction"));
+}
+
+void EditController::add_daylight() {
+    // By its full name: the member hides the engine's function.
+    apply(atrium::add_daylight(document_.scene()), tr("Add daylight"));
 }
 
 } // namespace atrium::ui

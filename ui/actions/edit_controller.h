@@ -26,6 +26,7 @@ public:
     void add_camera_here(const ViewCamera& camera);
     /// Answers the import suggestion: wraps the roots in a group that scales and turns.
     void fix_import(const ImportSuggestion& suggestion);
+    void add_daylight(); ///< a sun and a sky as one undo entry
 
 Q_SIGNALS:
     void message(const QString& text);

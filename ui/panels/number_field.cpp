@@ -130,6 +130,18 @@ bool NumberField::commit_text() {
     return true;
 }
 
+bool NumberField::event(QEvent* event) {
+    if (event->type() == QEvent::ShortcutOverride && !typing_) {
+        auto* key = static_cast<QKeyEvent*>(event);
+        // With nothing half typed, undo means the document's, not the text's.
+        if (key->matches(QKeySequence::Undo) || key->matches(QKeySequence::Redo)) {
+            event->ignore();
+            return false;
+        }
+    }
+    return QLineEdit::event(event);
+}
+
 void NumberField::focusInEvent(QFocusEvent* event) {
     QLineEdit::focusInEvent(event);
     if (event->reason() == Qt::MouseFocusReason) {

@@ -49,6 +49,7 @@ Q_SIGNALS:
     void refused(const QString& why); ///< a bad entry; the value is unchanged
 
 protected:
+    bool event(QEvent* event) override;
     void focusInEvent(QFocusEvent* event) override;
     void focusOutEvent(QFocusEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;

@@ -12,7 +12,7 @@ PropertiesPanel::PropertiesPanel(Document& document, QWidget* parent) : QScrollA
     setWidgetResizable(true);
     setFrameShape(QFrame::NoFrame);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    setMinimumWidth(376); // three number fields side by side with their label
+    setMinimumWidth(386); // three number fields side by side with their label
     auto* content = new QWidget;
     auto* layout = new QVBoxLayout(content);
     layout->setContentsMargins(10, 8, 10, 8);

@@ -49,7 +49,7 @@ Section::Section(const QString& title, Document& document, QWidget* parent) : QW
     grid_->setHorizontalSpacing(10);
     grid_->setVerticalSpacing(5);
     grid_->setColumnStretch(1, 1);
-    grid_->setColumnMinimumWidth(0, 92);
+    grid_->setColumnMinimumWidth(0, 102);
     layout->addLayout(grid_);
 }
 

@@ -8,6 +8,7 @@
 #include "ui/panels/properties_panel.h"
 #include "ui/panels/scene_tree_panel.h"
 #include "ui/viewport/viewport_widget.h"
+#include "ui/window/daylight_bar.h"
 #include "ui/window/export_picture_dialog.h"
 #include "ui/window/file_controller.h"
 #include "ui/window/help_dialogs.h"
@@ -89,7 +90,10 @@ MainWindow::MainWindow(const QString& recovery_directory, QWidget* parent) : QMa
     viewport_->setMinimumSize(320, 240);
     pages_->addWidget(start_);
     pages_->addWidget(viewport_);
+    auto* daylight_bar = new DaylightBar(document_);
+    connect(daylight_bar, &DaylightBar::accepted, this, [this] { edit_->add_daylight(); });
     layout->addWidget(import_bar_);
+    layout->addWidget(daylight_bar);
     layout->addWidget(pages_, 1);
     setCentralWidget(centre);
 
@@ -231,7 +235,7 @@ void MainWindow::make_menus() {
                        ActionId::Commands});
     fill(tr("&Add"), {ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder, ActionId::AddCone,
                       ActionId::AddDisc, gap, ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight,
-                      ActionId::AddSun, gap, ActionId::AddCamera});
+                      ActionId::AddSun, ActionId::AddDaylight, gap, ActionId::AddCamera});
     auto* view =
         fill(tr("&View"), {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap, ActionId::ExposureUp,
                            ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::Wireframe, gap});
@@ -347,6 +351,7 @@ void MainWindow::connect_files() {
 void MainWindow::connect_edit() {
     on(ActionId::Undo, [this] { document_.undo(); });
     on(ActionId::Redo, [this] { document_.redo(); });
+    on(ActionId::AddDaylight, [this] { edit_->add_daylight(); });
     on(ActionId::Duplicate, [this] { edit_->duplicate(); });
     on(ActionId::Delete, [this] { edit_->remove(); });
     on(ActionId::Rename, [this] { tree_->rename_active(); });
@@ -366,7 +371,11 @@ void MainWindow::connect_edit() {
             }
         });
     }
-    on(ActionId::AddCamera, [this] { edit_->add_camera_here(viewport_->camera()); });
+    on(ActionId::AddCamera, [this] {
+        started_ = true;
+        update_page();
+        edit_->add_camera_here(viewport_->camera());
+    });
     connect(edit_, &EditController::message, this, &MainWindow::say);
 }
 
