@@ -254,6 +254,7 @@ TEST(Hierarchy, TheCheckerFindsFaults) {
     EXPECT_TRUE(broken([&](Hierarchy& h) { h.harmonics[h.elements[0].harmonics].projected_area[0] *= 1.1F; }));
     EXPECT_TRUE(broken([&](Hierarchy& h) { h.elements[leaf].rho = Rgb(1.2F); }));
     std::vector<Link> links = room.links.links();
+    ASSERT_FALSE(links.empty());
     links.push_back(links[links.size() / 2]);
     EXPECT_FALSE(check_links(room.hierarchy, links).empty()) << "a pair twice";
     links = room.links.links();
