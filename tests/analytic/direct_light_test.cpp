@@ -250,6 +250,61 @@ TEST(DirectLight, SunAndNightLightInOneSolution) {
     EXPECT_NEAR(luminance(read_surface(scene, *s.solution, {2, 0, 2}, {0, 1, 0}).irradiance) / 0.01, 1.0, 0.01);
 }
 
+// X-SLIVER: the floor of CIE171-5.3 cut into 1000 strips of 4 m by 4 mm.
+TEST(DirectLight, SliversOnTheFloorChangeNothing) {
+    Scene scene;
+    const MaterialId black = add_material(scene, 0);
+    add_room(scene, 4, 3, 4, black);
+    add_rectangle(scene, "source", {2, 3, 2}, {0, -1, 0}, {1, 0, 0}, 1, 1, add_material(scene, 0, 1000.0F * kPi));
+    auto data = std::make_shared<MeshData>();
+    constexpr int kStrips = 1000;
+    for (int i = 0; i <= kStrips; ++i) {
+        const float x = 4.0F * float(i) / kStrips;
+        data->positions.insert(data->positions.end(), {{x, 0, 0}, {x, 0, 4}});
+    }
+    for (std::uint32_t i = 0; i < kStrips; ++i) {
+        const std::uint32_t a = 2 * i;
+        data->indices.insert(data->indices.end(), {a, a + 1, a + 2, a + 2, a + 1, a + 3});
+    }
+    data->parts = {{0, std::uint32_t(data->indices.size())}};
+    Shape shape;
+    shape.geometry = Mesh{data};
+    Node& floor = *scene.nodes.find(scene.roots[0]);
+    floor.shape = scene.shapes.insert(shape);
+    floor.transform = {};
+    const Solved s = solve(scene, Quality::Draft);
+    ASSERT_TRUE(s.solution);
+    const double floor53[][2] = {{0.25, 61.42409854}, {0.75, 79.25515732}, {1.25, 95.66727633}, {1.75, 105.7782422}};
+    for (const auto& [z, e] : floor53) {
+        EXPECT_NEAR(luminance(s.engine.gather_free({2, 0, z}, {0, 1, 0}).irradiance) / e, 1.0, 0.005) << z;
+        EXPECT_NEAR(luminance(read_surface(scene, *s.solution, {2, 0, z}, {0, 1, 0}).irradiance) / e, 1.0, 0.05) << z;
+    }
+}
+
+// X-COPLANAR: a carpet a micrometre above the floor and one exactly on it get the whole light and pass none on downwards.
+TEST(DirectLight, CarpetsOnTheFloor) {
+    for (const double height : {0.0, 1e-6, 1e-3}) {
+        Scene scene;
+        add_room(scene, 4, 3, 4, add_material(scene, 0));
+        const NodeId carpet =
+            add_rectangle(scene, "carpet", {2, height, 2}, {0, 1, 0}, {1, 0, 0}, 2, 2, add_material(scene, 0));
+        add_point_light(scene, {2, 2, 2}, 1000);
+        const Solved s = solve(scene, Quality::Draft);
+        ASSERT_TRUE(s.solution);
+        for (const auto& layer : s.solution->surfaces) {
+            if (layer->node != carpet) {
+                continue;
+            }
+            for (std::size_t i = 0; i < layer->mesh->positions.size(); ++i) {
+                const vec3 p = layer->mesh->positions[i];
+                const double d2 = p.x * p.x + p.y * p.y + (2 - height) * (2 - height);
+                const double e = 1000 / (4 * kPiD) * (2 - height) / (d2 * std::sqrt(d2));
+                EXPECT_NEAR(luminance(layer->irradiance_front[i]) / e, 1.0, 0.02) << height;
+            }
+        }
+    }
+}
+
 // X-LEAK: two rooms of 4 x 3 x 4 m share a wall; light in one only.
 struct LeakCase {
     const char* name;
