@@ -1,6 +1,6 @@
 // Triangles of the primitives against closed forms; triangulation of polygons that files really hold.
-#include "engine/geometry/polygon_triangulation.h"
 #include "engine/geometry/mesh_topology.h"
+#include "engine/geometry/polygon_triangulation.h"
 #include "engine/geometry/tessellate.h"
 
 #include <gtest/gtest.h>
