@@ -110,6 +110,13 @@ int main(int argc, char** argv) {
             });
         });
     }
+    if (parser.isSet(screenshot)) {
+        // Nobody sits there to read a message box.
+        QObject::connect(&window.files(), &atrium::ui::FileController::open_failed, &window, [](const QString& why) {
+            QTextStream(stderr) << why << '\n';
+            QCoreApplication::exit(1);
+        });
+    }
     if (!parser.positionalArguments().isEmpty()) {
         window.files().open(parser.positionalArguments().constFirst());
     } else if (parser.isSet(sample)) {

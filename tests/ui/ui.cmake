@@ -10,5 +10,9 @@ if(TARGET atrium_ui)
   if(XVFB_RUN)
     add_test(NAME ui COMMAND ${XVFB_RUN} -a -s "-screen 0 1400x900x24" $<TARGET_FILE:ui_tests>)
     set_tests_properties(ui PROPERTIES TIMEOUT 300 ENVIRONMENT "QT_QPA_PLATFORM=xcb;LC_ALL=C.UTF-8")
+    # A file that is not there: a message and an exit status, not a picture of a message box.
+    add_test(NAME screenshot_of_nothing COMMAND ${XVFB_RUN} -a $<TARGET_FILE:atrium> no/such/room.glb --screenshot nothing.png)
+    set_tests_properties(screenshot_of_nothing PROPERTIES TIMEOUT 60 WILL_FAIL TRUE
+      ENVIRONMENT "QT_QPA_PLATFORM=xcb;LC_ALL=C.UTF-8")
   endif()
 endif()

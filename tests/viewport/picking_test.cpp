@@ -64,6 +64,34 @@ TEST(MeshBvh, AnswersAClickOnAQuarterMillionTrianglesWithinAFrame) {
     EXPECT_GT(hits, 0);
 }
 
+TEST(MeshBvh, NoRaySlipsThroughASeam) {
+    for (const Geometry& geometry : {Geometry(Sphere{0.7F}), Geometry(Cylinder{0.3F, 1.1F})}) {
+        const MeshBvh bvh(std::make_shared<const DisplayMesh>(make_display_mesh(Shape{"Round", geometry, {}}, 0)));
+        const DisplayMesh& mesh = bvh.mesh();
+        const vec3 middle = bvh.bounds().centre();
+        int missed = 0;
+        const auto shoot = [&](const vec3& surface) {
+            const dvec3 out = glm::normalize(dvec3(surface - middle));
+            const dvec3 origin = dvec3(surface) + out * 3.0;
+            missed += bvh.nearest(origin, dvec3(surface) - origin, 10.0, RaySides::Front) ? 0 : 1;
+        };
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const vec3 a = mesh.positions[mesh.indices[i + k]];
+                const vec3 b = mesh.positions[mesh.indices[i + (k + 1) % 3]];
+                for (const float share : {0.0F, 0.25F, 0.5F, 0.7F}) {
+                    const vec3 p = a + (b - a) * share;
+                    // A cylinder is open at its rims, where a ray may pass by.
+                    if (std::abs(p.y - middle.y) < 0.4F * bvh.bounds().size().y) {
+                        shoot(p);
+                    }
+                }
+            }
+        }
+        EXPECT_EQ(missed, 0);
+    }
+}
+
 Scene one_polygon(bool double_sided) {
     Scene scene;
     Material material;

@@ -8,10 +8,14 @@ namespace {
 
 constexpr std::uint32_t kLeafTriangles = 4;
 
+/// Gap between triangles that a ray does not slip through, relative to the mesh's size: a closed shape's seam has its
+/// vertices twice, and their single-precision positions differ in the last place.
+constexpr double kGap = 1e-6;
+
 /// Entry distance of a ray into a box, or infinity.
-double enter_box(const Box3& box, const dvec3& origin, const dvec3& inverse, double t_max) {
-    const dvec3 a = (dvec3(box.min) - origin) * inverse;
-    const dvec3 b = (dvec3(box.max) - origin) * inverse;
+double enter_box(const Box3& box, double gap, const dvec3& origin, const dvec3& inverse, double t_max) {
+    const dvec3 a = (dvec3(box.min) - gap - origin) * inverse;
+    const dvec3 b = (dvec3(box.max) + gap - origin) * inverse;
     double lo = 0;
     double hi = t_max;
     for (int i = 0; i < 3; ++i) {
@@ -29,6 +33,7 @@ MeshBvh::MeshBvh(std::shared_ptr<const DisplayMesh> mesh) : mesh_(std::move(mesh
     for (const vec3& p : mesh_->positions) {
         bounds_.add(p);
     }
+    gap_ = bounds_.empty() ? 0.0 : kGap * double(bounds_.diagonal());
 }
 
 void MeshBvh::build() const {
@@ -80,7 +85,7 @@ std::optional<MeshHit> MeshBvh::nearest(const dvec3& origin, const dvec3& direct
         return std::nullopt;
     }
     const dvec3 inverse = 1.0 / direction;
-    if (!(enter_box(bounds_, origin, inverse, t_max) < t_max)) {
+    if (!(enter_box(bounds_, gap_, origin, inverse, t_max) < t_max)) {
         return std::nullopt;
     }
     build();
@@ -90,12 +95,12 @@ std::optional<MeshHit> MeshBvh::nearest(const dvec3& origin, const dvec3& direct
     stack[depth++] = 0;
     while (depth > 0) {
         const NodeBox& node = nodes_[stack[--depth]];
-        if (!(enter_box(node.box, origin, inverse, t_max) < t_max)) {
+        if (!(enter_box(node.box, gap_, origin, inverse, t_max) < t_max)) {
             continue;
         }
         if (node.count == 0) {
-            const double a = enter_box(nodes_[node.first].box, origin, inverse, t_max);
-            const double b = enter_box(nodes_[node.first + 1].box, origin, inverse, t_max);
+            const double a = enter_box(nodes_[node.first].box, gap_, origin, inverse, t_max);
+            const double b = enter_box(nodes_[node.first + 1].box, gap_, origin, inverse, t_max);
             // The nearer child is looked at first: it is pushed last.
             stack[depth++] = node.first + (a <= b ? 1U : 0U);
             stack[depth++] = node.first + (a <= b ? 0U : 1U);
@@ -117,7 +122,13 @@ std::optional<MeshHit> MeshBvh::nearest(const dvec3& origin, const dvec3& direct
             const dvec3 r = glm::cross(s, e1);
             const double v = glm::dot(direction, r) / det;
             const double hit = glm::dot(e2, r) / det;
-            if (u >= 0 && v >= 0 && u + v <= 1 && hit >= 0 && hit < t_max) {
+            if (!(hit >= 0 && hit < t_max)) {
+                continue;
+            }
+            // An edge reaches outwards by the gap: that share of the height above it, but no more than a little of slivers.
+            const double twice_area = glm::length(glm::cross(e1, e2));
+            const auto slack = [&](const dvec3& edge) { return std::min(gap_ * glm::length(edge) / twice_area, 0.01); };
+            if (u >= -slack(e2) && v >= -slack(e1) && u + v <= 1 + slack(e2 - e1)) {
                 t_max = hit;
                 best = MeshHit{hit, order_[i], front};
             }

@@ -43,6 +43,7 @@ private:
 
     std::shared_ptr<const DisplayMesh> mesh_;
     Box3 bounds_;
+    double gap_ = 0; ///< width of a gap between triangles that counts as closed
     mutable std::once_flag once_;
     mutable std::vector<NodeBox> nodes_;
     mutable std::vector<std::uint32_t> order_;

@@ -144,6 +144,7 @@ void FileController::start_open(const QString& path, std::function<void()> then)
                     Q_EMIT recent_changed();
                 }
                 show_error(tr("%1 could not be opened").arg(QFileInfo(path).fileName()), result.error());
+                Q_EMIT open_failed(QString::fromStdString(result.error().message()));
                 return;
             }
             document_.reset(std::move(result->scene), QFileInfo(path).absoluteFilePath(), std::move(result->problems));

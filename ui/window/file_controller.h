@@ -41,6 +41,7 @@ public:
 Q_SIGNALS:
     void busy_changed(const QString& what, bool can_cancel); ///< empty = nothing
     void opened();                                           ///< another document is shown
+    void open_failed(const QString& why);                    ///< the document is the one before; the user was told
     void import_suggested(const atrium::ImportSuggestion& suggestion);
     void recent_changed();
     void message(const QString& text);
