@@ -57,9 +57,10 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, 
             return out;
         }
     } else if (r < 1.5F * e.radius) {
-        // Inside or beside it no direction describes it: its parts are looked at first. Should the cut be full before,
-        // it counts as a uniform surrounding.
-        out.error = std::numeric_limits<float>::max();
+        // Inside or beside it no direction describes it: its parts are looked at, the brightest elements first. Should the
+        // cut be full before, it counts as a uniform surrounding.
+        const float reach2 = std::max(r * r, 0.25F * e.radius * e.radius);
+        out.error = e.power / (kPi * reach2);
         out.contribution = e.radiosity * (0.5F * std::min(1.0F, e.area / (4.0F * kPi * e.radius * e.radius)));
         return out;
     }
