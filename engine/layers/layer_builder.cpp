@@ -566,7 +566,7 @@ private:
     // Averages each vertex with its neighbours as far as the samples' own noise explains their difference: differences that
     // are larger than noise stay. Covered vertices have been filled before.
     static void smooth_noise(NodeMesh& mesh, DirectSample Vertex::*sample) {
-        constexpr int kRounds = 3;
+        constexpr int kRounds = 4;
         std::vector<Rgb> sum(mesh.vertices.size());
         std::vector<float> weight(mesh.vertices.size());
         std::vector<float> variance(mesh.vertices.size());
@@ -583,7 +583,7 @@ private:
                     const DirectSample& y = mesh.vertices[b].*sample;
                     const float noise = x.variance + y.variance;
                     const float d = luminance(x.irradiance) - luminance(y.irradiance);
-                    if (!(noise > 0.0F) || d * d > 2.0F * noise) {
+                    if (!(noise > 0.0F) || d * d > 6.0F * noise) {
                         continue;
                     }
                     // Inner edges are met twice, border edges once: half weights from each triangle.

@@ -95,6 +95,8 @@ struct SingleRays {
     }
 };
 
+constexpr std::uint64_t kPickSalt = 0x9E37U; // keeps the picks apart from the elements' sample points
+
 } // namespace
 
 PointGather::Visibility PointGather::visibility(std::uint32_t element, const SurfacePoint& receiver, unsigned count) const {
@@ -187,7 +189,9 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
             weak += light;
             continue;
         }
-        const auto count = std::max(1U, unsigned(std::lround(light / unoccluded * float(settings.rays))));
+        // Powers of two: the samples are stratified best, and neighbouring points use the very same ones.
+        const float wanted = light / unoccluded * float(settings.rays);
+        const auto count = unsigned(std::exp2(std::round(std::log2(std::max(wanted, 1.0F)))));
         const Visibility v = visibility(node.element, p, count);
         out.irradiance += node.contribution * v.seen;
         const auto n = float(v.rays);
@@ -199,18 +203,23 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
     }
     const auto picks = unsigned(std::ceil(weak / unoccluded * float(settings.rays)));
     const float stride = weak / float(std::max(picks, 1U));
-    float next = 0.5F * stride;
-    float passed = 0.0F;
+    Rgb sum(0.0F);
+    float picked = 0.0F;
     for (const CutNode& node : done) {
         const float light = luminance(node.contribution);
-        if (light >= own_ray || !(light > 0.0F)) {
+        // Every element has its own fixed number: neighbouring points pick the same ones, and their error is the same too.
+        const float chance = unit_float(std::uint32_t(hash64(h_.elements[node.element].path ^ kPickSalt) >> 32));
+        if (light >= own_ray || !(light > chance * stride)) {
             continue;
         }
-        for (passed += light; next < passed; next += stride) {
-            const Visibility v = visibility(node.element, p, 1);
-            out.irradiance += node.contribution * (stride / light) * v.seen;
-            single.add(stride, v.clear);
-        }
+        const float weight = std::max(light, stride);
+        const Visibility v = visibility(node.element, p, 1);
+        sum += node.contribution * (weight / light) * v.seen;
+        picked += weight;
+        single.add(weight, v.clear);
+    }
+    if (picked > 0.0F) { // chance decides how many are picked, not how much light they stand for
+        out.irradiance += sum * (weak / picked);
     }
     out.variance += single.variance();
     return out;
