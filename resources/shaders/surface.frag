@@ -1,6 +1,6 @@
 #version 330 core
 // Compiled in variants, since a software rasteriser executes every branch: TEXTURED (textures, alpha mask), SPECULAR (metal
-// and glass), HEADLIGHT (no light known yet).
+// and glass), HEADLIGHT (no light known yet), CUT (walls that hide the room from outside are left out, see cutaway.h).
 // radiance = emitted + rho * irradiance / pi, then exposure, filmic curve and sRGB as in engine/view/tone.h.
 in vec3 v_position;
 in vec3 v_normal;
@@ -34,6 +34,12 @@ uniform vec3 u_filter; // what the mirror that one looks into leaves of the ligh
 uniform float u_exposure;
 uniform bool u_linear; // the probe keeps radiance
 
+#ifdef CUT
+uniform vec3 u_cut_side;
+uniform vec3 u_cut_plane; // relative to the eye
+uniform float u_cut_facing;
+#endif
+
 out vec4 o_color;
 
 const float kInvPi = 0.31830988618379067;
@@ -62,6 +68,11 @@ vec3 reflected(vec3 direction, float roughness) {
 #endif
 
 void main() {
+#ifdef CUT
+    if (any(greaterThan(u_cut_side * (v_position - u_cut_plane) * step(u_cut_facing, abs(normalize(v_normal))), vec3(0.0)))) {
+        discard;
+    }
+#endif
     vec4 base = u_base * vec4(v_color, 1.0);
     vec3 emitted = u_emitted;
 #ifdef TEXTURED

@@ -1,7 +1,8 @@
 // Windows need an application; settings and autosaves of the person who runs the tests are left alone.
+#include "timed_application.h"
+
 #include <gtest/gtest.h>
 
-#include <QApplication>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QSurfaceFormat>
@@ -15,7 +16,7 @@ int main(int argc, char** argv) {
     format.setProfile(QSurfaceFormat::CoreProfile);
     format.setDepthBufferSize(24);
     QSurfaceFormat::setDefaultFormat(format);
-    QApplication application(argc, argv);
+    atrium::ui::TimedApplication application(argc, argv);
     std::setlocale(LC_NUMERIC, "C");
     QCoreApplication::setOrganizationName(QStringLiteral("Atrium"));
     QCoreApplication::setApplicationName(QStringLiteral("atrium-tests"));

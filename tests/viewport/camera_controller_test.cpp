@@ -194,5 +194,23 @@ TEST(InitialView, TakesTheFilesCameraUnlessItLooksAway) {
     EXPECT_NE(dvec3(initial_view(scene).to_world[3]), dvec3(1.0, 0.5, -4.0));
 }
 
+TEST(InitialView, OfAThingIsFromOutsideAndShowsAllOfIt) {
+    const Scene scene = scene_with_boxes({{0, 0, 0}, {0.6, 0, 0}});
+    const DBox3 bounds = robust_bounds(scene);
+    ASSERT_LT(bounds.size().y, 2.0);
+    CameraController camera;
+    camera.set_viewport(800, 600);
+    camera.set_camera(initial_view(scene));
+    for (int i = 0; i < 8; ++i) {
+        const auto p =
+            camera.project({(i & 1) != 0 ? bounds.max.x : bounds.min.x, (i & 2) != 0 ? bounds.max.y : bounds.min.y,
+                            (i & 4) != 0 ? bounds.max.z : bounds.min.z});
+        ASSERT_TRUE(p) << "behind the camera";
+        EXPECT_GT(std::min(p->x, p->y), 0.0);
+        EXPECT_LT(p->x, 800.0);
+        EXPECT_LT(p->y, 600.0);
+    }
+}
+
 } // namespace
 } // namespace atrium::ui

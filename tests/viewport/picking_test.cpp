@@ -147,6 +147,7 @@ TEST(ViewScene, LayerIsUsedUntilItsShapeChanges) {
     layer->irradiance_front.assign(layer->mesh->positions.size(), Rgb(100.0F));
     auto solution = std::make_shared<Solution>();
     solution->revision = 4;
+    solution->mean_radiance = 30.0;
     solution->surfaces = {layer};
     ViewScene view;
     view.sync(scene, solution);
@@ -166,6 +167,24 @@ TEST(ViewScene, LayerIsUsedUntilItsShapeChanges) {
     newer->revision = 5;
     view.sync(scene, newer);
     EXPECT_EQ(view.items()[0].layer, layer);
+}
+
+TEST(ViewScene, WhatHasNoLightIsShownAsNotLitYet) {
+    Scene scene = one_polygon(false);
+    auto layer = std::make_shared<SurfaceLayer>();
+    layer->node = scene.roots.front();
+    layer->mesh =
+        std::make_shared<DisplayMesh>(make_display_mesh(*scene.shapes.find(scene.nodes.find(layer->node)->shape), 0));
+    layer->irradiance_front.assign(layer->mesh->positions.size(), Rgb(0.0F));
+    auto solution = std::make_shared<Solution>();
+    solution->surfaces = {layer};
+    ViewScene view;
+    view.sync(scene, solution);
+    EXPECT_EQ(view.items().at(0).layer, nullptr);
+    solution = std::make_shared<Solution>(*solution);
+    solution->mean_radiance = 3.0; // light elsewhere: here it is dark
+    view.sync(scene, solution);
+    EXPECT_EQ(view.items().at(0).layer, layer);
 }
 
 TEST(Gizmo, HandlesAreWhereTheyAreDrawnAtAnyDistance) {

@@ -52,6 +52,7 @@ enum class ActionId : std::uint8_t {
     ExposureDown,
     ExposureReset,
     Wireframe,
+    CutWalls,
     StopLight,
     ResumeLight,
     Commands,

@@ -17,7 +17,7 @@
 namespace atrium::ui {
 
 namespace {
-constexpr int kIntervalMs = 120000;
+constexpr int kIntervalMs = 30000;
 } // namespace
 
 Recovery::Recovery(Document& document, const QString& directory, QObject* parent)

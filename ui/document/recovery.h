@@ -36,7 +36,7 @@ public:
     [[nodiscard]] std::vector<RecoveredFile> orphans() const;
     static void discard(const RecoveredFile& file);
 
-    void set_limits(int interval_ms, int edits); ///< defaults: two minutes, 20 undo entries
+    void set_limits(int interval_ms, int edits); ///< defaults: 30 s after a change, 20 undo entries
     void clear();                                ///< saved, or closed on purpose: removes this process's files
     [[nodiscard]] QString path() const { return base_ + QStringLiteral(".atrium"); }
     [[nodiscard]] bool busy() const { return writing_; }

@@ -1,5 +1,7 @@
 #include "ui/viewport/camera_controller.h"
 
+#include "ui/viewport/cutaway.h"
+
 #include <algorithm>
 #include <vector>
 
@@ -19,6 +21,18 @@ double median(std::vector<double>& values) {
 
 double distance_to_box(const DBox3& box, const dvec3& p) {
     return glm::length(glm::max(glm::max(box.min - p, p - box.max), dvec3(0.0)));
+}
+
+/// From the front, the right and a little above, as one looks at furniture.
+ViewCamera outside_view(const DBox3& bounds) {
+    ViewCamera out;
+    out.lens.yfov = 0.7F;
+    const dvec3 back = glm::normalize(dvec3(0.55, 0.4, 1.0));
+    const dvec3 right = glm::normalize(glm::cross(dvec3(0.0, 1.0, 0.0), back));
+    const double distance = 0.55 * bounds.diagonal() / std::sin(0.5 * double(out.lens.yfov));
+    out.to_world = dmat4(dvec4(right, 0.0), dvec4(glm::cross(back, right), 0.0), dvec4(back, 0.0),
+                         dvec4(bounds.centre() + back * distance, 1.0));
+    return out;
 }
 
 } // namespace
@@ -258,6 +272,9 @@ ViewCamera initial_view(const Scene& scene) {
             return view;
         }
         break;
+    }
+    if (!bounds.empty() && !is_room(bounds)) {
+        return outside_view(bounds);
     }
     return default_camera(scene);
 }

@@ -35,6 +35,8 @@ public:
     /// What near and far planes and speeds adapt to; far outliers left out.
     void set_scene_bounds(const DBox3& bounds) { bounds_ = bounds; }
 
+    [[nodiscard]] const DBox3& scene_bounds() const { return bounds_; }
+
     [[nodiscard]] ViewCamera camera() const;
     /// Takes eye, direction and lens; roll is dropped (turntable), an orthographic lens becomes a perspective one that
     /// shows the same height at the focus.
@@ -95,7 +97,8 @@ private:
 /// spread of the nodes is left out. Empty for an empty scene.
 DBox3 robust_bounds(const Scene& scene);
 
-/// The view a file opens with: its first camera if that sees something of the scene, else default_camera().
+/// The view a file opens with: its first camera if that sees something of the scene, else one inside
+/// the room; of a thing that is smaller than a room, one from outside.
 ViewCamera initial_view(const Scene& scene);
 
 } // namespace atrium::ui

@@ -150,6 +150,7 @@ bool GpuScene::compile(unsigned variant) {
         defines += (variant & Textured) != 0 ? "#define TEXTURED\n" : "";
         defines += (variant & Specular) != 0 ? "#define SPECULAR\n" : "";
         defines += (variant & Headlight) != 0 ? "#define HEADLIGHT\n" : "";
+        defines += (variant & Cut) != 0 ? "#define CUT\n" : "";
         surface_[variant].program = load_program("surface.vert", "surface.frag", defines);
     }
     return surface_[variant].program != nullptr;
@@ -176,6 +177,12 @@ void GpuScene::begin(unsigned variant, const DrawView& from) {
     relative("u_probe_centre", probe_.centre);
     relative("u_room_min", probe_.room.min);
     relative("u_room_max", probe_.room.max);
+    if ((variant & Cut) != 0) {
+        const vec3 side(from.cutaway.side());
+        gl.glUniform3f(p.at("u_cut_side"), side.x, side.y, side.z);
+        gl.glUniform1f(p.at("u_cut_facing"), float(Cutaway::kFacing));
+        relative("u_cut_plane", from.cutaway.plane());
+    }
     gl.glActiveTexture(GL_TEXTURE2);
     gl.glBindTexture(GL_TEXTURE_CUBE_MAP, probe ? probe_.texture : 0);
 }
@@ -390,7 +397,11 @@ int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& fr
     std::vector<Visible> blended;
     for (const ViewItem& item : view.items()) {
         const mat4 mvp(view_projection * relative_to_eye(item, from.eye));
-        const unsigned variant = variant_of(item);
+        const Cutaway::Part cut = from.cutaway.part_of(item.bounds);
+        if (cut == Cutaway::Part::All) {
+            continue;
+        }
+        const unsigned variant = variant_of(item) | (cut == Cutaway::Part::Some ? unsigned(Cut) : 0U);
         if (out_of_sight(item.bvh->bounds(), mvp, from.window) || !compile(variant)) {
             continue;
         }
@@ -485,6 +496,7 @@ void GpuScene::draw_mirror(const ViewItem& item, const ViewScene& view, const Sc
     // ... so that the room shows, seen from behind the mirror ...
     DrawView behind = from;
     behind.reflected = true;
+    behind.cutaway = {}; // a mirror shows the walls
     const dmat3 reflection = dmat3(1.0) - 2.0 * glm::outerProduct(normal, normal);
     behind.rotation = from.rotation * dmat4(reflection);
     behind.eye = from.eye - normal * (2.0 * glm::dot(from.eye - point, normal));
@@ -537,7 +549,8 @@ void GpuScene::draw_edges(const ViewScene& view, const DrawView& from) {
     gl_->glPolygonOffset(-1.0F, -1.0F);
     gl_->glEnable(GL_BLEND);
     gl_->glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    draw_mask(view, from, vec4(0.05F, 0.1F, 0.2F, 0.45F), [](const ViewItem&) { return true; });
+    draw_mask(view, from, vec4(0.05F, 0.1F, 0.2F, 0.45F),
+              [&from](const ViewItem& item) { return from.cutaway.part_of(item.bounds) != Cutaway::Part::All; });
     gl_->glDisable(GL_BLEND);
     gl_->glDisable(GL_POLYGON_OFFSET_LINE);
     gl_->glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);

@@ -24,6 +24,7 @@ struct DrawView {
     bool reflected = false; ///< looks into a flat mirror: `rotation` reflects, and what lies behind the mirror is cut off
     vec4 clip{0.0F};        ///< the mirror's plane relative to the eye, positive in front
     vec4 window{-1.0F, -1.0F, 1.0F, 1.0F}; ///< what of the view is of use: x and y from, x and y to
+    Cutaway cutaway;                       ///< what of the walls is left out
     vec3 filter{1.0F};                     ///< the mirror's reflectance
 };
 
@@ -88,7 +89,7 @@ private:
         std::unordered_map<const char*, int> locations;
         int at(const char* name);
     };
-    enum Feature : unsigned { Textured = 1, Specular = 2, Headlight = 4, kVariants = 8 };
+    enum Feature : unsigned { Textured = 1, Specular = 2, Headlight = 4, Cut = 8, kVariants = 16 };
     std::array<Program, kVariants> surface_;
     std::unique_ptr<QOpenGLShaderProgram> mask_;
     [[nodiscard]] static unsigned variant_of(const ViewItem& item);

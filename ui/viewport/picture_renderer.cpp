@@ -73,6 +73,7 @@ void PictureRenderer::paint(const FrameInput& in) {
     from.rotation = in.camera.rotation();
     from.eye = in.camera.eye();
     from.exposure = in.exposure;
+    from.cutaway = in.view.cutaway();
     const int samples = software_ && !in.refine ? 0 : kSamples;
     const bool resized = picture_.width() != in.width || picture_.height() != in.height;
     if (!picture_good_ || resized || samples > picture_samples_) {

@@ -10,6 +10,10 @@ namespace {
 /// Meshes larger than this get their hierarchy ahead of the first click, off the UI thread.
 constexpr std::size_t kBuildAheadIndices = 3 * 2000;
 
+/// How many hidden surfaces of one wall a ray goes through, and how far behind one it goes on, metres.
+constexpr int kMostLayers = 16;
+constexpr double kNextLayer = 1e-5;
+
 } // namespace
 
 void ViewScene::clear() {
@@ -66,7 +70,10 @@ std::shared_ptr<const MeshBvh> ViewScene::bvh_of(const std::shared_ptr<const Dis
 
 void ViewScene::sync(const Scene& scene, const std::shared_ptr<const Solution>& solution) {
     std::map<std::pair<NodeId, std::uint32_t>, const std::shared_ptr<const SurfaceLayer>*> layers;
-    if (solution) {
+    // Without any light the truth is black, in which nobody finds a wall to put a lamp on: shown as not lit yet, also while
+    // the first light is on its way.
+    const bool black = solution && !(solution->mean_radiance > 0.0);
+    if (solution && !black) {
         for (const auto& layer : solution->surfaces) {
             const auto barrier = valid_from_.find(layer->node);
             if (barrier == valid_from_.end() || solution->revision >= barrier->second) {
@@ -124,6 +131,13 @@ void ViewScene::sync(const Scene& scene, const std::shared_ptr<const Solution>& 
                 item.bvh = cached.bvh;
             }
             if (!item.mesh->indices.empty()) {
+                const Box3& local = item.bvh->bounds();
+                for (int corner = 0; corner < 8; ++corner) {
+                    const dvec3 p((corner & 1) != 0 ? local.max.x : local.min.x,
+                                  (corner & 2) != 0 ? local.max.y : local.min.y,
+                                  (corner & 4) != 0 ? local.max.z : local.min.z);
+                    item.bounds.add(dvec3(world * dvec4(p, 1.0)));
+                }
                 items_.push_back(std::move(item));
             }
         }
@@ -142,7 +156,8 @@ std::optional<PickHit> ViewScene::pick(const Ray& ray, double max_distance) cons
     std::optional<PickHit> best;
     double nearest = max_distance;
     for (const ViewItem& item : items_) {
-        if (item.flattened) {
+        const Cutaway::Part cut = cutaway_.part_of(item.bounds);
+        if (item.flattened || cut == Cutaway::Part::All) {
             continue;
         }
         const dmat4 inverse = glm::inverse(item.world);
@@ -150,21 +165,31 @@ std::optional<PickHit> ViewScene::pick(const Ray& ray, double max_distance) cons
         const dvec3 direction(inverse * dvec4(ray.direction, 0.0));
         const RaySides sides = item.material->double_sided ? RaySides::Both : RaySides::Front;
         // The direction is mapped without renormalising, so t is in world metres along the ray.
-        const auto hit = item.bvh->nearest(origin, direction, nearest, sides);
-        if (!hit) {
-            continue;
+        double from = 0.0;
+        for (int layer = 0; layer < kMostLayers; ++layer) {
+            const auto hit = item.bvh->nearest(origin + direction * from, direction, nearest - from, sides);
+            if (!hit) {
+                break;
+            }
+            const double distance = from + hit->t;
+            const std::uint32_t* t = &item.mesh->indices[std::size_t(hit->triangle) * 3];
+            const dvec3 p(item.mesh->positions[t[0]]);
+            const dvec3 local_normal =
+                glm::cross(dvec3(item.mesh->positions[t[1]]) - p, dvec3(item.mesh->positions[t[2]]) - p);
+            dvec3 normal = glm::transpose(dmat3(inverse)) * local_normal;
+            const double length = glm::length(normal);
+            normal = length > 0 ? normal / length : -ray.direction;
+            if (cut == Cutaway::Part::Some && cutaway_.hides(ray.at(distance), normal)) {
+                from = distance + kNextLayer;
+                continue;
+            }
+            if (glm::dot(normal, ray.direction) > 0) {
+                normal = -normal;
+            }
+            nearest = distance;
+            best = PickHit{item.node, item.part, distance, ray.at(distance), normal};
+            break;
         }
-        nearest = hit->t;
-        const std::uint32_t* t = &item.mesh->indices[std::size_t(hit->triangle) * 3];
-        const dvec3 p(item.mesh->positions[t[0]]);
-        const dvec3 local_normal = glm::cross(dvec3(item.mesh->positions[t[1]]) - p, dvec3(item.mesh->positions[t[2]]) - p);
-        dvec3 normal = glm::transpose(dmat3(inverse)) * local_normal;
-        const double length = glm::length(normal);
-        normal = length > 0 ? normal / length : -ray.direction;
-        if (glm::dot(normal, ray.direction) > 0) {
-            normal = -normal;
-        }
-        best = PickHit{item.node, item.part, hit->t, ray.at(hit->t), normal};
     }
     return best;
 }

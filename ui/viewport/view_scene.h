@@ -4,6 +4,7 @@
 #include "engine/scene/scene_edit.h"
 #include "engine/solver/solution.h"
 #include "ui/viewport/camera_controller.h"
+#include "ui/viewport/cutaway.h"
 #include "ui/viewport/mesh_bvh.h"
 
 #include <map>
@@ -24,6 +25,7 @@ struct ViewItem {
     std::shared_ptr<const MeshBvh> bvh;
     const Material* material = nullptr; ///< never null; owned by the scene, good until the next edit
     dmat4 world{1.0};
+    DBox3 bounds;           ///< of the mesh in the world
     bool mirrored = false;  ///< the world matrix turns the winding round
     bool flattened = false; ///< the world matrix has no inverse: cannot be picked
 };
@@ -49,6 +51,10 @@ public:
     /// their pointers stay the same.
     void sync(const Scene& scene, const std::shared_ptr<const Solution>& solution);
 
+    /// What pick() and the picture leave out; good until the next call.
+    void set_cutaway(const Cutaway& cutaway) { cutaway_ = cutaway; }
+    [[nodiscard]] const Cutaway& cutaway() const { return cutaway_; }
+
     [[nodiscard]] const std::vector<ViewItem>& items() const { return items_; }
     /// Nearest visible surface; back sides of single-sided materials are not drawn and not hit. Blended and cut-out parts
     /// count as solid.
@@ -64,6 +70,7 @@ private:
     void forget_shape(const Scene& scene, ShapeId shape, std::uint64_t revision);
 
     std::vector<ViewItem> items_;
+    Cutaway cutaway_;
     std::map<std::pair<ShapeId, std::uint32_t>, CachedMesh> unlit_;
     std::unordered_map<const DisplayMesh*, std::shared_ptr<const MeshBvh>> bvhs_;
     std::unordered_map<NodeId, std::uint64_t> valid_from_; ///< layers of older solutions show an older shape

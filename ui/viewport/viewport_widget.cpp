@@ -53,6 +53,7 @@ struct ViewportWidget::Impl : ToolHost {
     double mean_radiance = 0;
     bool mean_is_final = false;
     bool wireframe = false;
+    bool cut_walls = true;
     bool refine = false;
     bool items_dirty = true;
     bool markers_dirty = true;
@@ -242,6 +243,7 @@ struct ViewportWidget::Impl : ToolHost {
                 controller.set_scene_bounds(robust_bounds(doc.scene()));
             }
         }
+        view.set_cutaway(cut_walls ? Cutaway(controller.scene_bounds(), controller.eye()) : Cutaway());
         if (markers_dirty) {
             markers_dirty = false;
             find_hidden(markers, view, controller);
@@ -475,6 +477,13 @@ float ViewportWidget::exposure() const { return impl_->exposure_ev; }
 void ViewportWidget::set_wireframe(bool on) {
     if (on != impl_->wireframe) {
         impl_->wireframe = on;
+        impl_->picture_changed();
+    }
+}
+
+void ViewportWidget::set_cut_walls(bool on) {
+    if (on != impl_->cut_walls) {
+        impl_->cut_walls = on;
         impl_->picture_changed();
     }
 }

@@ -29,7 +29,8 @@ public:
     [[nodiscard]] bool walk_mode() const;
     void set_exposure(float ev); ///< stops, added to automatic exposure; never reaches the solver
     [[nodiscard]] float exposure() const;
-    void set_wireframe(bool on);             ///< the display mesh's edges over the picture
+    void set_wireframe(bool on); ///< the display mesh's edges over the picture
+    void set_cut_walls(bool on); ///< from outside, leave out the walls and the ceiling in front of the room (the default)
     [[nodiscard]] ViewCamera camera() const; ///< as seen now, for "export picture"
     void set_camera(const ViewCamera& camera);
     /// Point on the floor or nearest surface in the middle of the view: where new objects are placed, world metres.

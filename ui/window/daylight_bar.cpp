@@ -15,12 +15,12 @@ DaylightBar::DaylightBar(Document& document, QWidget* parent) : QFrame(parent), 
     setBackgroundRole(QPalette::AlternateBase);
     auto* layout = new QHBoxLayout(this);
     layout->setContentsMargins(10, 4, 10, 4);
-    auto* text = new QLabel(tr("Nothing in this scene gives light, so all of it is dark."));
+    auto* text = new QLabel(tr("Nothing in this scene gives light. Until something does, it is shown in a neutral working light."));
     text->setWordWrap(true);
     auto* add = new QPushButton(tr("Add &Daylight"));
     add->setObjectName(QStringLiteral("daylight_add"));
     add->setToolTip(tr("Add a sun and a uniform sky; one step to undo"));
-    auto* keep = new QPushButton(tr("Keep Dar&k"));
+    auto* keep = new QPushButton(tr("&Not Now"));
     keep->setObjectName(QStringLiteral("daylight_keep"));
     layout->addWidget(text, 1);
     layout->addWidget(add);

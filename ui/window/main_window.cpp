@@ -236,9 +236,9 @@ void MainWindow::make_menus() {
     fill(tr("&Add"), {ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder, ActionId::AddCone,
                       ActionId::AddDisc, gap, ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight,
                       ActionId::AddSun, ActionId::AddDaylight, gap, ActionId::AddCamera});
-    auto* view =
-        fill(tr("&View"), {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap, ActionId::ExposureUp,
-                           ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::Wireframe, gap});
+    auto* view = fill(tr("&View"),
+                      {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap, ActionId::ExposureUp,
+                       ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::Wireframe, ActionId::CutWalls, gap});
     docks_menu_ = view->addMenu(tr("&Panels"));
     const QList<QDockWidget*> docks = findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly);
     for (QDockWidget* dock : docks) {
@@ -416,6 +416,8 @@ void MainWindow::connect_view() {
     on(ActionId::ExposureDown, [this, expose] { expose(viewport_->exposure() - kExposureStep); });
     on(ActionId::ExposureReset, [expose] { expose(0); });
     connect((*actions_)[ActionId::Wireframe], &QAction::toggled, viewport_, &ViewportWidget::set_wireframe);
+    (*actions_)[ActionId::CutWalls]->setChecked(true);
+    connect((*actions_)[ActionId::CutWalls], &QAction::toggled, viewport_, &ViewportWidget::set_cut_walls);
     connect(viewport_, &ViewportWidget::message, this, &MainWindow::say);
     on(ActionId::StopLight, [this] { engine_->cancel(); });
     on(ActionId::ResumeLight, [this] { engine_->resume(); });
