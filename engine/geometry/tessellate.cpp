@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
-#include <tuple>
 
 namespace atrium {
 namespace {
@@ -166,52 +164,6 @@ std::shared_ptr<const MeshData> tessellate(const Geometry& geometry, const Tesse
         disc_at(out, vec3(0.0F), {1, 0, 0}, {0, 1, 0}, d->radius, segments);
     }
     return out.finish();
-}
-
-bool is_closed(const MeshData& mesh) {
-    using Point = std::tuple<float, float, float>;
-    std::map<Point, std::uint32_t> welded;
-    std::vector<std::uint32_t> id(mesh.positions.size());
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const vec3 p = mesh.positions[i] + vec3(0.0F); // -0 becomes +0
-        id[i] = welded.try_emplace({p.x, p.y, p.z}, std::uint32_t(welded.size())).first->second;
-    }
-    // +1 for an edge from its lower to its higher end, -1 for the other way; closed = all balanced, each once either way.
-    struct Use {
-        int balance = 0;
-        int count = 0;
-    };
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Use> edges;
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const std::uint32_t v[3] = {id[mesh.indices[i]], id[mesh.indices[i + 1]], id[mesh.indices[i + 2]]};
-        if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
-            continue;
-        }
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t a = v[k];
-            const std::uint32_t b = v[(k + 1) % 3];
-            Use& use = edges[{std::min(a, b), std::max(a, b)}];
-            use.balance += a < b ? 1 : -1;
-            ++use.count;
-        }
-    }
-    return !edges.empty() && std::all_of(edges.begin(), edges.end(),
-                                         [](const auto& e) { return e.second.balance == 0 && e.second.count == 2; });
-}
-
-double signed_volume(const MeshData& mesh) {
-    if (mesh.indices.empty()) {
-        return 0.0;
-    }
-    const dvec3 o(mesh.positions[mesh.indices[0]]); // near the mesh: large coordinates do not cancel
-    double sum = 0.0;
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const dvec3 a = dvec3(mesh.positions[mesh.indices[i]]) - o;
-        const dvec3 b = dvec3(mesh.positions[mesh.indices[i + 1]]) - o;
-        const dvec3 c = dvec3(mesh.positions[mesh.indices[i + 2]]) - o;
-        sum += glm::dot(a, glm::cross(b, c));
-    }
-    return sum / 6.0;
 }
 
 } // namespace atrium

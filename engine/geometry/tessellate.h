@@ -15,11 +15,4 @@ struct TessellationOptions {
 /// one part. A Mesh is returned as it is (shared, not copied). Degenerate input gives empty data, never NaN.
 std::shared_ptr<const MeshData> tessellate(const Geometry& geometry, const TessellationOptions& options = {});
 
-/// True when every edge (welded by position) is shared by exactly two triangles in opposite directions: the mesh bounds a
-/// solid and its back sides can never be seen from outside.
-bool is_closed(const MeshData& mesh);
-
-/// Signed volume of a closed mesh, cubic metres in its own coordinates: positive when its faces look outward.
-double signed_volume(const MeshData& mesh);
-
 } // namespace atrium

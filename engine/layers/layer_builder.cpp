@@ -1,6 +1,8 @@
 #include "engine/layers/layer_builder.h"
 
 #include "engine/base/parallel.h"
+#include "engine/layers/light_smoothing.h"
+#include "engine/layers/node_mesh.h"
 
 #include <algorithm>
 #include <map>
@@ -10,45 +12,6 @@ namespace atrium {
 namespace {
 
 constexpr float kPullIn = 0.01F; // metres at most that a sample is moved off its vertex towards the triangles' inside
-
-/// Vertex of the growing mesh of one node.
-struct Vertex {
-    vec3 local{0.0F};
-    vec3 local_normal{0.0F};
-    vec2 uv0{0.0F};
-    vec2 uv1{0.0F};
-    vec3 color{1.0F};
-    vec3 position{0.0F}; ///< engine coordinates
-    vec3 normal{0.0F};   ///< engine coordinates, unit, on the front side
-    vec3 towards{0.0F};  ///< sum of (centroid - position) of the triangles around it
-    float triangles = 0.0F;
-    std::uint32_t weld = 0; ///< same for coincident vertices of the node
-    bool wants_back = false;
-    bool front_covered = false; ///< something lies on the surface here: no light of its own, shown like its neighbours
-    bool back_covered = false;
-    DirectSample front;
-    DirectSample back;
-};
-
-struct Triangle {
-    std::array<std::uint32_t, 3> v{};
-    std::uint32_t surface = 0;
-    bool open = true; ///< its edges may still be split
-};
-
-struct PairHash {
-    std::size_t operator()(std::uint64_t key) const noexcept { return std::size_t(key * 0x9E3779B97F4A7C15ULL >> 13); }
-};
-
-std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) { return (std::uint64_t(std::min(a, b)) << 32) | std::max(a, b); }
-
-/// All surfaces of one node.
-struct NodeMesh {
-    std::vector<std::uint32_t> surfaces;
-    std::vector<Vertex> vertices;
-    std::vector<Triangle> triangles;
-    std::uint32_t welds = 0;
-};
 
 class LayerBuild {
 public:
@@ -82,7 +45,7 @@ public:
 
 private:
     struct Request {
-        Vertex* vertex;
+        LightVertex* vertex;
     };
 
     void collect() {
@@ -120,7 +83,7 @@ private:
         for (const uvec3& t : surface.triangles) {
             const auto& p = *surface.positions;
             const vec3 face_normal = glm::normalize(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]));
-            Triangle out;
+            MeshTriangle out;
             out.surface = s;
             for (int k = 0; k < 3; ++k) {
                 const std::uint32_t v = t[k];
@@ -129,7 +92,7 @@ private:
                     out.v[std::size_t(k)] = it->second;
                     continue;
                 }
-                Vertex vertex;
+                LightVertex vertex;
                 vertex.local = data.positions[v];
                 vertex.position = p[v];
                 vertex.wants_back = back;
@@ -160,152 +123,10 @@ private:
         }
     }
 
-    static void add_triangle(NodeMesh& mesh, const Triangle& t) {
-        mesh.triangles.push_back(t);
-        const vec3 centroid =
-            (mesh.vertices[t.v[0]].position + mesh.vertices[t.v[1]].position + mesh.vertices[t.v[2]].position) / 3.0F;
-        for (const std::uint32_t v : t.v) {
-            mesh.vertices[v].towards += centroid - mesh.vertices[v].position;
-            mesh.vertices[v].triangles += 1.0F;
-        }
-    }
-
-    static Vertex midpoint(const Vertex& a, const Vertex& b) {
-        Vertex m;
-        m.local = 0.5F * (a.local + b.local);
-        m.position = 0.5F * (a.position + b.position);
-        const auto mean_normal = [](const vec3& p, const vec3& q) {
-            const vec3 sum = p + q;
-            const float length = glm::length(sum);
-            return length > 1e-6F ? sum / length : p;
-        };
-        m.local_normal = mean_normal(a.local_normal, b.local_normal);
-        m.normal = mean_normal(a.normal, b.normal);
-        m.uv0 = 0.5F * (a.uv0 + b.uv0);
-        m.uv1 = 0.5F * (a.uv1 + b.uv1);
-        m.color = 0.5F * (a.color + b.color);
-        m.wants_back = a.wants_back;
-        return m;
-    }
-
-    // Cuts the open triangles along the welded edges in `split`; midpoints found in `ready` are used, others made.
-    using SplitSet = std::unordered_map<std::uint64_t, std::uint32_t, PairHash>; // welded edge -> weld id of its middle
-    using Middles = std::unordered_map<std::uint64_t, std::uint32_t, PairHash>;  // vertex pair -> vertex
-    void cut(NodeMesh& mesh, const SplitSet& split, Middles& middles) {
-        std::vector<Triangle> old;
-        old.swap(mesh.triangles);
-        for (Vertex& v : mesh.vertices) {
-            v.towards = vec3(0.0F);
-            v.triangles = 0.0F;
-        }
-        const auto middle_of = [&](std::uint32_t a, std::uint32_t b) -> std::uint32_t {
-            const auto it = split.find(edge_key(mesh.vertices[a].weld, mesh.vertices[b].weld));
-            if (it == split.end()) {
-                return Element::kNone;
-            }
-            const auto [middle, fresh] = middles.try_emplace(edge_key(a, b), 0);
-            if (fresh) {
-                middle->second = std::uint32_t(mesh.vertices.size());
-                mesh.vertices.push_back(midpoint(mesh.vertices[a], mesh.vertices[b]));
-                ++added_;
-            }
-            mesh.vertices[middle->second].weld = it->second;
-            return middle->second;
-        };
-        for (const Triangle& t : old) {
-            if (!t.open) {
-                add_triangle(mesh, t);
-                continue;
-            }
-            std::array<std::uint32_t, 3> m{};
-            unsigned count = 0;
-            for (std::size_t k = 0; k < 3; ++k) {
-                m[k] = middle_of(t.v[k], t.v[(k + 1) % 3]);
-                count += m[k] != Element::kNone ? 1 : 0;
-            }
-            const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-                add_triangle(mesh, {{a, b, c}, t.surface, true});
-            };
-            if (count == 0) {
-                Triangle closed = t;
-                closed.open = false;
-                add_triangle(mesh, closed);
-            } else if (count == 3) {
-                add(t.v[0], m[0], m[2]);
-                add(m[0], t.v[1], m[1]);
-                add(m[2], m[1], t.v[2]);
-                add(m[0], m[1], m[2]);
-            } else {
-                // close_split() has seen to it that the longest edge is among those split: halve there first, then the half
-                // that has the other split edge. Angles stay bounded however often this is done (Rivara 1984).
-                const std::size_t k = longest_edge(mesh, t);
-                const std::uint32_t a = t.v[k], b = t.v[(k + 1) % 3], c = t.v[(k + 2) % 3];
-                const std::uint32_t ab = m[k], bc = m[(k + 1) % 3], ca = m[(k + 2) % 3];
-                if (ca != Element::kNone) {
-                    add(a, ab, ca);
-                    add(ca, ab, c);
-                } else {
-                    add(a, ab, c);
-                }
-                if (bc != Element::kNone) {
-                    add(ab, b, bc);
-                    add(ab, bc, c);
-                } else {
-                    add(ab, b, c);
-                }
-            }
-        }
-    }
-
-    // Index of a triangle's longest edge; of equal ones the one with the smallest welded key, so that neighbours agree.
-    std::size_t longest_edge(const NodeMesh& mesh, const Triangle& t) const {
-        std::size_t best = 0;
-        float best_length = -1.0F;
-        std::uint64_t best_key = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = t.v[k], b = t.v[(k + 1) % 3];
-            const float length = edge_length(mesh, a, b);
-            const std::uint64_t key = edge_key(mesh.vertices[a].weld, mesh.vertices[b].weld);
-            if (length > best_length || (length == best_length && key < best_key)) {
-                best = k;
-                best_length = length;
-                best_key = key;
-            }
-        }
-        return best;
-    }
-
-    // Grows a set of split edges until every triangle that has one also splits its longest edge, and opens all triangles
-    // concerned: no slivers, and no T-vertex on a triangle that was thought finished.
-    void close_split(NodeMesh& mesh, SplitSet& split) const {
-        for (bool grown = !split.empty(); grown;) {
-            grown = false;
-            for (Triangle& t : mesh.triangles) {
-                bool any = false;
-                for (std::size_t k = 0; k < 3 && !any; ++k) {
-                    any = split.contains(edge_key(mesh.vertices[t.v[k]].weld, mesh.vertices[t.v[(k + 1) % 3]].weld));
-                }
-                if (!any) {
-                    continue;
-                }
-                t.open = true;
-                const std::size_t k = longest_edge(mesh, t);
-                const std::uint64_t key = edge_key(mesh.vertices[t.v[k]].weld, mesh.vertices[t.v[(k + 1) % 3]].weld);
-                const auto [it, fresh] = split.try_emplace(key, mesh.welds);
-                mesh.welds += fresh ? 1 : 0;
-                grown = grown || fresh;
-            }
-        }
-    }
-
-    float edge_length(const NodeMesh& mesh, std::uint32_t a, std::uint32_t b) const {
-        return glm::length(mesh.vertices[a].position - mesh.vertices[b].position);
-    }
-
     void split_long_edges(NodeMesh& mesh) {
         for (int level = 0; level < 16 && added_ < settings_.max_vertices; ++level) {
             SplitSet split;
-            for (const Triangle& t : mesh.triangles) {
+            for (const MeshTriangle& t : mesh.triangles) {
                 for (std::size_t k = 0; k < 3; ++k) {
                     const std::uint32_t a = t.v[k], b = t.v[(k + 1) % 3];
                     if (edge_length(mesh, a, b) > settings_.base_edge) {
@@ -320,9 +141,9 @@ private:
             }
             close_split(mesh, split);
             Middles middles;
-            cut(mesh, split, middles);
+            added_ += cut(mesh, split, middles);
         }
-        for (Triangle& t : mesh.triangles) {
+        for (MeshTriangle& t : mesh.triangles) {
             t.open = true;
         }
     }
@@ -350,21 +171,21 @@ private:
 
     // Where the light of a vertex is sampled: moved a little into its triangles, so that walls meeting there do not hide it,
     // but never behind the side's own surface (on a ball the triangles' middles lie below the vertex).
-    [[nodiscard]] static vec3 sample_position(const Vertex& v, const vec3& n) {
+    [[nodiscard]] static vec3 sample_position(const LightVertex& v, const vec3& n) {
         vec3 inwards = v.triangles > 0.0F ? v.towards / v.triangles : vec3(0.0F);
         inwards -= n * std::min(glm::dot(inwards, n), 0.0F);
         const float length = glm::length(inwards);
         return length > 0.0F ? v.position + inwards * std::min(0.1F, kPullIn / length) : v.position;
     }
 
-    void sample_vertex(Vertex& v) const {
+    void sample_vertex(LightVertex& v) const {
         sample_side(v, v.normal, v.front, v.front_covered);
         if (v.wants_back) {
             sample_side(v, -v.normal, v.back, v.back_covered);
         }
     }
 
-    void sample_side(const Vertex& v, const vec3& n, DirectSample& sample, bool& is_covered) const {
+    void sample_side(const LightVertex& v, const vec3& n, DirectSample& sample, bool& is_covered) const {
         const vec3 p = sample_position(v, n);
         sample = gather_.irradiance(p, n, settings_.gather);
         is_covered = luminance(sample.irradiance) < settings_.light_floor && covered(p, n);
@@ -393,47 +214,6 @@ private:
         return true;
     }
 
-    // Covered vertices take the light of their uncovered neighbours, so that the edge of a foot, a board or a rug is where
-    // the object ends and no dark halo runs out from under it.
-    static void fill_covered(NodeMesh& mesh, bool Vertex::*covered, DirectSample Vertex::*sample) {
-        std::vector<std::uint32_t> open;
-        for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-            if (mesh.vertices[v].*covered) {
-                open.push_back(v);
-            }
-        }
-        std::vector<Rgb> sum(open.empty() ? 0 : mesh.vertices.size());
-        std::vector<float> count(sum.size());
-        while (!open.empty()) {
-            std::fill(sum.begin(), sum.end(), Rgb(0.0F));
-            std::fill(count.begin(), count.end(), 0.0F);
-            for (const Triangle& t : mesh.triangles) {
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const std::uint32_t to = t.v[k];
-                    for (const std::uint32_t from : {t.v[(k + 1) % 3], t.v[(k + 2) % 3]}) {
-                        if (mesh.vertices[to].*covered && !(mesh.vertices[from].*covered)) {
-                            sum[to] += (mesh.vertices[from].*sample).irradiance;
-                            count[to] += 1.0F;
-                        }
-                    }
-                }
-            }
-            std::vector<std::uint32_t> left;
-            for (const std::uint32_t v : open) {
-                if (count[v] > 0.0F) {
-                    (mesh.vertices[v].*sample).irradiance = sum[v] / count[v];
-                    mesh.vertices[v].*covered = false;
-                } else {
-                    left.push_back(v);
-                }
-            }
-            if (left.size() == open.size()) {
-                break; // wholly enclosed: dark, and nobody sees it
-            }
-            open.swap(left);
-        }
-    }
-
     static float deviation(const DirectSample& a, const DirectSample& m, const DirectSample& b, float floor) {
         const float la = luminance(a.irradiance), lm = luminance(m.irradiance), lb = luminance(b.irradiance);
         const float mean = 0.5F * (la + lb);
@@ -443,7 +223,7 @@ private:
         return difference > 1.5F * noise ? difference / std::max({mean, lm, floor}) : 0.0F;
     }
 
-    [[nodiscard]] bool alike(const Vertex& a, const Vertex& b) const {
+    [[nodiscard]] bool alike(const LightVertex& a, const LightVertex& b) const {
         const auto close = [&](const DirectSample& p, const DirectSample& q) {
             const float x = luminance(p.irradiance), y = luminance(q.irradiance);
             return std::abs(x - y) <= settings_.contrast * std::max({x, y, settings_.light_floor});
@@ -456,13 +236,13 @@ private:
         struct Candidate {
             std::size_t mesh;
             std::uint32_t a, b; // vertex pair
-            Vertex middle;
+            LightVertex middle;
         };
         std::vector<Candidate> candidates;
         for (std::size_t m = 0; m < meshes_.size(); ++m) {
             NodeMesh& mesh = meshes_[m];
-            std::unordered_map<std::uint64_t, std::size_t, PairHash> seen;
-            for (const Triangle& t : mesh.triangles) {
+            std::unordered_map<std::uint64_t, std::size_t, EdgeHash> seen;
+            for (const MeshTriangle& t : mesh.triangles) {
                 if (!t.open) {
                     continue;
                 }
@@ -484,7 +264,7 @@ private:
                     if (fresh) {
                         candidates.push_back({m, a, b, midpoint(mesh.vertices[a], mesh.vertices[b])});
                     }
-                    Vertex& middle = candidates[it->second].middle;
+                    LightVertex& middle = candidates[it->second].middle;
                     middle.towards += centroid - middle.position;
                     middle.triangles += 1.0F;
                 }
@@ -502,8 +282,8 @@ private:
         std::vector<std::pair<float, std::size_t>> strong;
         for (std::size_t i = 0; i < candidates.size(); ++i) {
             const Candidate& c = candidates[i];
-            const Vertex& a = meshes_[c.mesh].vertices[c.a];
-            const Vertex& b = meshes_[c.mesh].vertices[c.b];
+            const LightVertex& a = meshes_[c.mesh].vertices[c.a];
+            const LightVertex& b = meshes_[c.mesh].vertices[c.b];
             // Between covered points there is nothing to see; the border itself is the object's and needs no finer mesh.
             float d = 0.0F;
             if (int(a.front_covered) + int(b.front_covered) + int(c.middle.front_covered) == 0) {
@@ -547,14 +327,14 @@ private:
         std::vector<Request> missing;
         for (std::size_t m = 0; m < meshes_.size(); ++m) {
             if (split[m].empty()) {
-                for (Triangle& t : meshes_[m].triangles) {
+                for (MeshTriangle& t : meshes_[m].triangles) {
                     t.open = false;
                 }
                 continue;
             }
             NodeMesh& mesh = meshes_[m];
             const std::size_t before = mesh.vertices.size();
-            cut(mesh, split[m], middles[m]);
+            added_ += cut(mesh, split[m], middles[m]);
             for (std::size_t v = before; v < mesh.vertices.size(); ++v) {
                 missing.push_back({&mesh.vertices[v]});
             }
@@ -563,60 +343,17 @@ private:
         return complete;
     }
 
-    // Averages each vertex with its neighbours as far as the samples' own noise explains their difference: differences that
-    // are larger than noise stay. Covered vertices have been filled before.
-    static void smooth_noise(NodeMesh& mesh, DirectSample Vertex::*sample) {
-        constexpr int kRounds = 3;
-        std::vector<Rgb> sum(mesh.vertices.size());
-        std::vector<float> weight(mesh.vertices.size());
-        std::vector<float> variance(mesh.vertices.size());
-        for (int round = 0; round < kRounds; ++round) {
-            for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-                sum[v] = (mesh.vertices[v].*sample).irradiance;
-                weight[v] = 1.0F;
-                variance[v] = (mesh.vertices[v].*sample).variance;
-            }
-            for (const Triangle& t : mesh.triangles) {
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const std::uint32_t a = t.v[k], b = t.v[(k + 1) % 3];
-                    const DirectSample& x = mesh.vertices[a].*sample;
-                    const DirectSample& y = mesh.vertices[b].*sample;
-                    const float noise = x.variance + y.variance;
-                    const float d = luminance(x.irradiance) - luminance(y.irradiance);
-                    if (!(noise > 0.0F) || d * d > 2.0F * noise) {
-                        continue;
-                    }
-                    // Inner edges are met twice, border edges once: half weights from each triangle.
-                    const float w = 0.5F * std::exp(-d * d / (2.0F * noise));
-                    // The noisier end learns more from the other.
-                    const float to_a = w * 2.0F * x.variance / noise, to_b = w * 2.0F * y.variance / noise;
-                    sum[a] += to_a * y.irradiance;
-                    sum[b] += to_b * x.irradiance;
-                    weight[a] += to_a;
-                    weight[b] += to_b;
-                    variance[a] += to_a * to_a * y.variance;
-                    variance[b] += to_b * to_b * x.variance;
-                }
-            }
-            for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-                DirectSample& s = mesh.vertices[v].*sample;
-                s.irradiance = sum[v] / weight[v];
-                s.variance = variance[v] / (weight[v] * weight[v]);
-            }
-        }
-    }
-
     LayerSet finish() {
         LayerSet out;
         double error = 0.0, area_sum = 0.0, log_sum = 0.0, log_area = 0.0;
         out.surfaces.resize(rays_.surfaces().size());
         for (NodeMesh& mesh : meshes_) {
-            fill_covered(mesh, &Vertex::front_covered, &Vertex::front);
-            fill_covered(mesh, &Vertex::back_covered, &Vertex::back);
-            smooth_noise(mesh, &Vertex::front);
-            smooth_noise(mesh, &Vertex::back);
-            std::map<std::uint32_t, std::vector<const Triangle*>> by_surface;
-            for (const Triangle& t : mesh.triangles) {
+            fill_covered(mesh, &LightVertex::front_covered, &LightVertex::front);
+            fill_covered(mesh, &LightVertex::back_covered, &LightVertex::back);
+            smooth_noise(mesh, &LightVertex::front);
+            smooth_noise(mesh, &LightVertex::back);
+            std::map<std::uint32_t, std::vector<const MeshTriangle*>> by_surface;
+            for (const MeshTriangle& t : mesh.triangles) {
                 by_surface[t.surface].push_back(&t);
             }
             for (const auto& [s, triangles] : by_surface) {
@@ -628,13 +365,13 @@ private:
                 layer->part = surface.part;
                 std::unordered_map<std::uint32_t, std::uint32_t> index;
                 const Rgb rho = diffuse_reflectance(rays_.material(s));
-                for (const Triangle* t : triangles) {
+                for (const MeshTriangle* t : triangles) {
                     const auto& v = mesh.vertices;
                     const float area = 0.5F * glm::length(glm::cross(v[t->v[1]].position - v[t->v[0]].position,
                                                                      v[t->v[2]].position - v[t->v[0]].position));
                     for (std::size_t k = 0; k < 3; ++k) {
                         // Mirrored nodes were turned round for the rays; the display mesh keeps the file's winding.
-                        const Vertex& vertex = v[t->v[surface.mirrored ? (3 - k) % 3 : k]];
+                        const LightVertex& vertex = v[t->v[surface.mirrored ? (3 - k) % 3 : k]];
                         const std::uint32_t key = t->v[surface.mirrored ? (3 - k) % 3 : k];
                         const auto [it, fresh] = index.try_emplace(key, std::uint32_t(display->positions.size()));
                         if (fresh) {
@@ -665,7 +402,7 @@ private:
         return out;
     }
 
-    static void add_output(DisplayMesh& display, SurfaceLayer& layer, const MeshData& data, const Vertex& v) {
+    static void add_output(DisplayMesh& display, SurfaceLayer& layer, const MeshData& data, const LightVertex& v) {
         display.positions.push_back(v.local);
         display.normals.push_back(v.local_normal);
         if (!data.texcoords0.empty()) {

@@ -189,7 +189,18 @@ void DirectLight::add_sky_through_panes(const vec3& point, const vec3& normal, u
         }
         const auto& pane = panes_[i];
         const vec3 pane_normal = glm::normalize(glm::cross(pane[1] - pane[0], pane[2] - pane[0]));
-        const auto count = std::max(4U, unsigned(std::lround(factors[i] / sum * float(sky_rays))));
+        // Strong panes get rays by their share; of the many weak ones that a house has, some stand for all. Every pane has
+        // its fixed number, so neighbouring points pick the same ones.
+        const float wanted = factors[i] / sum * float(sky_rays);
+        float stands_for = 1.0F;
+        if (wanted < 2.0F) {
+            const float chance = unit_float(std::uint32_t(hash64(i + 1) >> 32));
+            if (chance >= 0.5F * wanted) {
+                continue;
+            }
+            stands_for = 2.0F / wanted;
+        }
+        const auto count = unsigned(std::exp2(std::round(std::log2(std::max(wanted, 2.0F)))));
         Rgb seen(0.0F);
         float weights = 0.0F;
         float clear = 0.0F;
@@ -220,10 +231,10 @@ void DirectLight::add_sky_through_panes(const vec3& point, const vec3& normal, u
             clear += 1.0F;
         }
         if (weights > 0.0F) {
-            out.irradiance += whole * (factors[i] / weights) * seen;
+            out.irradiance += whole * (factors[i] * stands_for / weights) * seen;
             const auto n = float(count);
             if (clear > 0.0F && clear < n) {
-                const float light = luminance(whole) * factors[i];
+                const float light = luminance(whole) * factors[i] * stands_for;
                 out.variance += light * light * (clear + 1.0F) * (n - clear + 1.0F) / ((n + 2.0F) * (n + 2.0F) * n);
             }
         }

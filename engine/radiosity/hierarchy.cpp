@@ -84,6 +84,7 @@ private:
     struct Item {
         Face face;
         vec3 centroid{0.0F};
+        float extent = 0.0F; ///< longest edge
         bool patch = false;
     };
 
@@ -95,6 +96,7 @@ private:
         item.face = {s, t, back, 0.5F * length, cross / length * (back ? -1.0F : 1.0F)};
         item.centroid = (p[0] + p[1] + p[2]) / 3.0F;
         const float longest = std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[1]), glm::length(p[0] - p[2])});
+        item.extent = longest;
         item.patch = longest > out_.settings.group_size;
         items.push_back(item);
     }
@@ -116,6 +118,20 @@ private:
         if (!any_patch && together && items.size() <= 64) {
             make_faces(index, items);
             return;
+        }
+        // One long triangle would make a whole branch look as large as itself: the long ones get a branch of their own.
+        float longest = 0.0F;
+        for (const Item& item : items) {
+            longest = std::max(longest, item.extent);
+        }
+        if (longest > 0.5F * glm::length(size)) {
+            const auto small_end = std::stable_partition(items.begin(), items.end(),
+                                                         [&](const Item& item) { return item.extent < 0.35F * longest; });
+            if (small_end != items.begin() && small_end != items.end()) {
+                const auto at = std::size_t(small_end - items.begin());
+                make_children(index, {items.first(at), items.subspan(at)});
+                return;
+            }
         }
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
         const float middle = centroids.centre()[axis];

@@ -57,9 +57,10 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, 
             return out;
         }
     } else if (r < 1.5F * e.radius) {
-        // Inside or beside it no direction describes it: its parts are looked at first. Should the cut be full before,
-        // it counts as a uniform surrounding.
-        out.error = std::numeric_limits<float>::max();
+        // Inside or beside it no direction describes it: its parts are looked at, the brightest elements first. Should the
+        // cut be full before, it counts as a uniform surrounding.
+        const float reach2 = std::max(r * r, 0.25F * e.radius * e.radius);
+        out.error = e.power / (kPi * reach2);
         out.contribution = e.radiosity * (0.5F * std::min(1.0F, e.area / (4.0F * kPi * e.radius * e.radius)));
         return out;
     }
@@ -93,6 +94,8 @@ struct SingleRays {
         return light2 * p * (1.0F - p);
     }
 };
+
+constexpr std::uint64_t kPickSalt = 0x9E37U; // keeps the picks apart from the elements' sample points
 
 } // namespace
 
@@ -186,7 +189,9 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
             weak += light;
             continue;
         }
-        const auto count = std::max(1U, unsigned(std::lround(light / unoccluded * float(settings.rays))));
+        // Powers of two: the samples are stratified best, and neighbouring points use the very same ones.
+        const float wanted = light / unoccluded * float(settings.rays);
+        const auto count = unsigned(std::exp2(std::round(std::log2(std::max(wanted, 1.0F)))));
         const Visibility v = visibility(node.element, p, count);
         out.irradiance += node.contribution * v.seen;
         const auto n = float(v.rays);
@@ -198,18 +203,23 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
     }
     const auto picks = unsigned(std::ceil(weak / unoccluded * float(settings.rays)));
     const float stride = weak / float(std::max(picks, 1U));
-    float next = 0.5F * stride;
-    float passed = 0.0F;
+    Rgb sum(0.0F);
+    float picked = 0.0F;
     for (const CutNode& node : done) {
         const float light = luminance(node.contribution);
-        if (light >= own_ray || !(light > 0.0F)) {
+        // Every element has its own fixed number: neighbouring points pick the same ones, and their error is the same too.
+        const float chance = unit_float(std::uint32_t(hash64(h_.elements[node.element].path ^ kPickSalt) >> 32));
+        if (light >= own_ray || !(light > chance * stride)) {
             continue;
         }
-        for (passed += light; next < passed; next += stride) {
-            const Visibility v = visibility(node.element, p, 1);
-            out.irradiance += node.contribution * (stride / light) * v.seen;
-            single.add(stride, v.clear);
-        }
+        const float weight = std::max(light, stride);
+        const Visibility v = visibility(node.element, p, 1);
+        sum += node.contribution * (weight / light) * v.seen;
+        picked += weight;
+        single.add(weight, v.clear);
+    }
+    if (picked > 0.0F) { // chance decides how many are picked, not how much light they stand for
+        out.irradiance += sum * (weak / picked);
     }
     out.variance += single.variance();
     return out;

@@ -1,6 +1,7 @@
 #include "engine/raycast/ray_scene.h"
 
 #include "engine/base/checks.h"
+#include "engine/geometry/mesh_topology.h"
 #include "engine/geometry/tessellate.h"
 #include "engine/scene/texture_sampling.h"
 

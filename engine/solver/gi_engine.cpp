@@ -4,6 +4,7 @@
 #include "engine/base/rng.h"
 #include "engine/layers/layer_builder.h"
 #include "engine/radiosity/direct_light.h"
+#include "engine/radiosity/leaf_surroundings.h"
 #include "engine/radiosity/links.h"
 #include "engine/radiosity/point_gather.h"
 #include "engine/radiosity/transport.h"
@@ -131,40 +132,6 @@ struct GiEngine::Impl {
                 }
             }
         });
-    }
-
-    // A leaf is enclosed when none of a fixed bundle of rays leaves the scene or meets glass or a side that reflects
-    // nothing.
-    std::vector<std::uint8_t> enclosed_leaves(const std::vector<std::uint32_t>& leaves, const RunContext& context) const {
-        std::vector<std::uint8_t> out(leaves.size(), 0);
-        parallel_chunks(leaves.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
-            if (context.should_stop()) {
-                return;
-            }
-            for (std::size_t i = begin; i < end; ++i) {
-                out[i] = enclosed(leaves[i]) ? 1 : 0;
-            }
-        });
-        return out;
-    }
-
-    bool enclosed(std::uint32_t leaf) const {
-        for (std::uint32_t i = 0; i < 24; ++i) {
-            const SurfacePoint p = sample_point(hierarchy, *rays, leaf, sobol_owen2(i, 2, 91U), false);
-            const vec2 u = sobol_owen2(i, 0, 73U);
-            vec3 t;
-            vec3 b;
-            make_frame(p.normal, t, b);
-            const float r = std::sqrt(u.x);
-            const float angle = 2.0F * kPi * u.y;
-            const vec3 d = (r * std::cos(angle)) * t + (r * std::sin(angle)) * b + std::sqrt(1.0F - u.x) * p.normal;
-            const Hit hit = rays->nearest({p.position + p.normal * 1e-4F, glm::normalize(d)});
-            if (!hit || rays->material(hit.surface).transmission > 0.0F ||
-                (!hit.front && !rays->surfaces()[hit.surface].back_side)) {
-                return false;
-            }
-        }
-        return true;
     }
 
     std::vector<std::uint8_t> back_lit_surfaces() const {
@@ -323,9 +290,11 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         timer.next("gather");
         context.progress("gather", at + 0.6 * step);
         Transport transport(s.hierarchy, links.links());
-        transport.close_rows(s.enclosed_leaves(transport.leaves(), context));
+        const LeafSurroundings around = look_around(s.hierarchy, *s.rays, transport.leaves(), context);
+        transport.close_rows(around.enclosed);
         const SolveReport report =
             solve_radiosity(s.hierarchy, transport, quality.solver_tolerance, quality.max_iterations, context);
+        darken(s.hierarchy, transport.leaves(), around);
         statistics.iterations += report.iterations;
         statistics.residual = report.residual;
         statistics.converged = report.converged;

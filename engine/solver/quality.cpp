@@ -34,7 +34,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         out.solver_tolerance = 1e-3;
         usual_error = 0.10;
         break;
-    case SolverSettings::Quality::Normal: set(0.2F, 0.12F, 2e-4F, 8, 0.5F, 0.03F, 0.06F, 0.02F, 192, 64, 12, 96); break;
+    case SolverSettings::Quality::Normal: set(0.2F, 0.12F, 2e-4F, 8, 0.5F, 0.03F, 0.06F, 0.02F, 192, 80, 12, 96); break;
     case SolverSettings::Quality::Fine:
         set(0.1F, 0.06F, 5e-5F, 16, 0.25F, 0.015F, 0.03F, 0.008F, 400, 192, 32, 256);
         out.refine_rounds = 3;

@@ -1,4 +1,5 @@
 // Triangles of the primitives against closed forms; triangulation of polygons that files really hold.
+#include "engine/geometry/mesh_topology.h"
 #include "engine/geometry/polygon_triangulation.h"
 #include "engine/geometry/tessellate.h"
 

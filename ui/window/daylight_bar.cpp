@@ -15,7 +15,8 @@ DaylightBar::DaylightBar(Document& document, QWidget* parent) : QFrame(parent), 
     setBackgroundRole(QPalette::AlternateBase);
     auto* layout = new QHBoxLayout(this);
     layout->setContentsMargins(10, 4, 10, 4);
-    auto* text = new QLabel(tr("Nothing in this scene gives light. Until something does, it is shown in a neutral working light."));
+    auto* text =
+        new QLabel(tr("Nothing in this scene gives light. Until something does, it is shown in a neutral working light."));
     text->setWordWrap(true);
     auto* add = new QPushButton(tr("Add &Daylight"));
     add->setObjectName(QStringLiteral("daylight_add"));

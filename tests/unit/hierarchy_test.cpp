@@ -1,0 +1,285 @@
+// The element hierarchy, its links and the transport on them keep what their headers promise.
+#include "engine/io/scene_file.h"
+#include "engine/radiosity/direct_light.h"
+#include "engine/radiosity/validate.h"
+#include "tests/support/rooms.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace atrium {
+namespace {
+
+using namespace test;
+using testing::IsEmpty;
+
+NodeId add_node(Scene& scene, const Geometry& geometry, const dvec3& at, MaterialId material) {
+    Shape shape;
+    shape.geometry = geometry;
+    Node node;
+    node.shape = scene.shapes.insert(shape);
+    node.materials = {material};
+    node.transform.translation = at;
+    const NodeId id = scene.nodes.insert(node);
+    scene.roots.push_back(id);
+    return id;
+}
+
+Scene empty_room() {
+    Scene scene;
+    const MaterialId m = add_material(scene, 0.5F);
+    add_room(scene, 4, 2.5F, 3, m);
+    add_rectangle(scene, "panel", {2, 2.5, 1.5}, {0, -1, 0}, {1, 0, 0}, 1, 1, add_material(scene, 0.2F, 1000.0F));
+    return scene;
+}
+
+Scene furnished_room() {
+    Scene scene = empty_room();
+    const MaterialId m = scene.materials.keys().front();
+    Material both;
+    both.double_sided = true;
+    const MaterialId two_sided = scene.materials.insert(both);
+    add_node(scene, Box{{0.6F, 0.5F, 0.7F}}, {1.1, 0.25, 1.3}, m);
+    add_node(scene, Sphere{0.2F}, {2.5, 0.2, 1.0}, m); // small triangles: face groups
+    add_node(scene, Cylinder{0.05F, 0.6F, false}, {3.0, 0.3, 2.0}, two_sided);
+    add_rectangle(scene, "screen", {1.9, 0.6, 1.5}, {0, 0, 1}, {1, 0, 0}, 1, 1, two_sided);
+    return scene;
+}
+
+/// A scene taken through refinement as the engine does it.
+struct Refined {
+    RayScene rays;
+    DirectLight direct;
+    Hierarchy hierarchy;
+    LinkSet links;
+
+    Refined(const Scene& scene, const HierarchySettings& settings, float threshold, int rounds = 2)
+        : rays(scene), direct(scene, rays), hierarchy(build_hierarchy(rays, settings)), links(hierarchy) {
+        for (const std::uint32_t leaf : hierarchy.leaves()) {
+            hierarchy.elements[leaf].radiosity = hierarchy.elements[leaf].emitted;
+        }
+        hierarchy.pull_radiosity();
+        for (int round = 0; round < rounds; ++round) {
+            RefineSettings refine;
+            refine.flux_threshold = threshold;
+            refine.rays = 4;
+            links.refine(hierarchy, rays, refine, RunContext{});
+            Transport transport(hierarchy, links.links());
+            solve_radiosity(hierarchy, transport, 1e-3, 50, RunContext{});
+        }
+    }
+};
+
+constexpr HierarchySettings kCoarse{0.3F, 0.15F};
+
+TEST(Hierarchy, IsSoundBeforeAndAfterRefinement) {
+    for (const Scene& scene : {empty_room(), furnished_room()}) {
+        const RayScene rays(scene);
+        const Hierarchy fresh = build_hierarchy(rays, kCoarse);
+        EXPECT_THAT(check_hierarchy(fresh, rays), IsEmpty());
+        const Refined refined(scene, kCoarse, 1e-3F);
+        EXPECT_GT(refined.hierarchy.elements.size(), fresh.elements.size());
+        EXPECT_THAT(check_hierarchy(refined.hierarchy, refined.rays), IsEmpty());
+    }
+}
+
+TEST(Hierarchy, HasEveryKindOfElementInAFurnishedRoom) {
+    const RayScene rays(furnished_room());
+    const Hierarchy h = build_hierarchy(rays, kCoarse);
+    std::array<int, 3> kinds{};
+    int back = 0;
+    for (const Element& e : h.elements) {
+        ++kinds[std::size_t(e.kind)];
+        back += e.kind == Element::Kind::Patch && e.back ? 1 : 0;
+    }
+    EXPECT_GT(kinds[0], 5);
+    EXPECT_GT(kinds[1], 5);
+    EXPECT_GT(kinds[2], 20);
+    EXPECT_GT(back, 0) << "the screen's back";
+    EXPECT_EQ(h.elements[0].child_count, 2) << "what emits and what does not are apart";
+}
+
+TEST(Hierarchy, LinksCoverEveryPairOfLeavesOnce) {
+    for (const float threshold : {1.0F, 3e-2F, 3e-3F}) { // from hardly refined to finely
+        const Refined empty(empty_room(), kCoarse, threshold);
+        EXPECT_THAT(check_links(empty.hierarchy, empty.links.links()), IsEmpty()) << threshold;
+        const Refined furnished(furnished_room(), kCoarse, threshold);
+        ASSERT_LT(furnished.hierarchy.leaves().size(), 8000U);
+        EXPECT_THAT(check_links(furnished.hierarchy, furnished.links.links()), IsEmpty()) << threshold;
+    }
+}
+
+TEST(Hierarchy, LinksStayCompleteWhenTheirBudgetIsReached) {
+    const Scene scene = furnished_room();
+    RayScene rays(scene);
+    Hierarchy h = build_hierarchy(rays, kCoarse);
+    for (const std::uint32_t leaf : h.leaves()) {
+        h.elements[leaf].radiosity = h.elements[leaf].emitted;
+    }
+    h.pull_radiosity();
+    LinkSet links(h);
+    RefineSettings refine;
+    refine.flux_threshold = 1e-4F;
+    refine.rays = 1;
+    refine.max_links = 2000;
+    links.refine(h, rays, refine, RunContext{});
+    EXPECT_LT(links.links().size(), 20000U);
+    EXPECT_THAT(check_links(h, links.links()), IsEmpty());
+}
+
+TEST(Hierarchy, TransportIsSymmetricAndClosedRowsSumToOne) {
+    Refined room(empty_room(), kCoarse, 3e-3F);
+    Transport open(room.hierarchy, room.links.links());
+    EXPECT_THAT(check_transport(room.hierarchy, open, false, 1e-2), IsEmpty());
+    Transport closed(room.hierarchy, room.links.links());
+    closed.close_rows(std::vector<std::uint8_t>(closed.leaves().size(), 1));
+    EXPECT_THAT(check_transport(room.hierarchy, closed, true, 2e-2), IsEmpty());
+    int near_one = 0;
+    for (const float sum : closed.row_sums()) {
+        near_one += std::abs(sum - 1.0F) < 1e-3F ? 1 : 0;
+    }
+    EXPECT_GT(near_one, int(0.98 * double(closed.leaves().size())));
+
+    Refined furnished(furnished_room(), kCoarse, 3e-3F);
+    Transport transport(furnished.hierarchy, furnished.links.links());
+    transport.close_rows(std::vector<std::uint8_t>(transport.leaves().size(), 0));
+    EXPECT_THAT(check_transport(furnished.hierarchy, transport, true, 3e-2), IsEmpty());
+}
+
+TEST(Hierarchy, SplitMakesFourQuartersOfThePatch) {
+    const Scene scene = empty_room();
+    const RayScene rays(scene);
+    Hierarchy h = build_hierarchy(rays, kCoarse);
+    const std::uint32_t leaf = h.leaves().front();
+    ASSERT_TRUE(h.can_split(leaf));
+    const Element parent = h.elements[leaf];
+    h.split(leaf, rays);
+    EXPECT_FALSE(h.can_split(leaf)) << "it is no leaf any more";
+    ASSERT_EQ(h.elements[leaf].child_count, 4);
+    double area = 0.0;
+    vec3 centre(0.0F);
+    for (std::uint32_t k = 0; k < 4; ++k) {
+        const Element& child = h.elements[h.elements[leaf].first_child + k];
+        EXPECT_NEAR(child.area, 0.25F * parent.area, 1e-6F);
+        EXPECT_EQ(child.normal, parent.normal);
+        EXPECT_EQ(child.rho, parent.rho);
+        EXPECT_LT(child.radius, 0.51F * parent.radius);
+        area += child.area;
+        centre += child.centre * 0.25F;
+    }
+    EXPECT_NEAR(area, parent.area, 1e-5);
+    EXPECT_LT(glm::length(centre - parent.centre), 1e-5F);
+    while (h.can_split(h.elements.size() - 1)) {
+        h.split(std::uint32_t(h.elements.size() - 1), rays);
+    }
+    const Element& last = h.elements.back();
+    EXPECT_LE(glm::length(last.corner[1] - last.corner[0]), 2 * kCoarse.smallest_patch);
+    EXPECT_THAT(check_hierarchy(h, rays), IsEmpty());
+}
+
+TEST(Hierarchy, PullGivesAreaMeansAndTheSpreadBoundsWhatIsBelow) {
+    Refined room(furnished_room(), kCoarse, 1e-2F);
+    Hierarchy& h = room.hierarchy;
+    std::uint32_t state = 9;
+    for (const std::uint32_t leaf : h.leaves()) {
+        state = state * 1664525U + 1013904223U;
+        h.elements[leaf].radiosity = Rgb(float(state >> 8) / float(1 << 24), 0.5F, float(leaf % 3));
+        h.elements[leaf].irradiance = Rgb(float(leaf % 5));
+        h.elements[leaf].direct = Rgb(float(leaf % 7));
+    }
+    h.pull_radiosity();
+    Rgb power(0.0F), irradiance(0.0F);
+    for (const std::uint32_t leaf : h.leaves()) {
+        const Element& e = h.elements[leaf];
+        power += e.radiosity * e.area;
+        irradiance += e.irradiance * e.area;
+        EXPECT_NEAR(e.power, e.area * luminance(e.radiosity), 1e-5F);
+        for (std::uint32_t up = e.parent; up != Element::kNone; up = h.elements[up].parent) {
+            const float difference = std::abs(luminance(e.radiosity) - luminance(h.elements[up].radiosity));
+            ASSERT_LE(difference, h.elements[up].spread + 1e-4F);
+        }
+    }
+    const Element& root = h.elements[0];
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(root.radiosity[c] * root.area / power[c], 1.0F, 1e-3F);
+        EXPECT_NEAR(root.irradiance[c] * root.area / irradiance[c], 1.0F, 1e-3F);
+    }
+    // The root's emission harmonics: the mean over all directions of the projected radiosity is a quarter of the sum.
+    EXPECT_NEAR(h.harmonics[root.harmonics].emission[0].g * 0.282094792F / (0.25F * power.g), 1.0F, 1e-3F);
+}
+
+TEST(Hierarchy, SamplePointsLieOnTheElementTheyAreAskedOf) {
+    const Refined room(furnished_room(), kCoarse, 1e-2F);
+    const Hierarchy& h = room.hierarchy;
+    for (std::uint32_t i = 0; i < h.elements.size(); i += 7) {
+        const Element& e = h.elements[i];
+        for (const vec2& u : {vec2(0, 0), vec2(0.3F, 0.6F), vec2(0.99F, 0.98F), vec2(0.99999994F, 0.99999994F)}) {
+            for (const bool by_power : {false, true}) {
+                const SurfacePoint p = sample_point(h, room.rays, i, u, by_power);
+                EXPECT_LE(glm::length(p.position - e.centre), e.radius * 1.001F + 1e-5F) << i;
+                EXPECT_NEAR(glm::length(p.normal), 1.0F, 1e-3F);
+                if (e.kind == Element::Kind::Patch) {
+                    EXPECT_NEAR(glm::dot(p.position - e.corner[0], e.normal), 0.0F, 1e-4F);
+                    EXPECT_EQ(p.normal, e.normal);
+                }
+            }
+        }
+    }
+}
+
+TEST(Hierarchy, EmptySceneHasNone) {
+    const RayScene rays{Scene{}};
+    Hierarchy h = build_hierarchy(rays, kCoarse);
+    EXPECT_TRUE(h.empty());
+    EXPECT_TRUE(h.leaves().empty());
+    h.pull_radiosity();
+    LinkSet links(h);
+    EXPECT_EQ(links.refine(h, rays, {}, RunContext{}), 0U);
+}
+
+TEST(Hierarchy, TheCheckerFindsFaults) {
+    Refined room(furnished_room(), kCoarse, 1e-2F);
+    const auto broken = [&](const auto& change) {
+        Hierarchy h = room.hierarchy;
+        change(h);
+        return !check_hierarchy(h, room.rays).empty();
+    };
+    const std::uint32_t leaf = room.hierarchy.leaves()[5];
+    EXPECT_TRUE(broken([&](Hierarchy& h) { h.elements[leaf].area *= 1.1F; }));
+    EXPECT_TRUE(broken([&](Hierarchy& h) { h.elements[leaf].parent = leaf + 1; }));
+    EXPECT_TRUE(broken([&](Hierarchy& h) { h.elements[0].radius *= 0.4F; }));
+    EXPECT_TRUE(broken([&](Hierarchy& h) { h.elements[leaf].path = h.elements[0].path; }));
+    EXPECT_TRUE(broken([&](Hierarchy& h) { h.harmonics[h.elements[0].harmonics].projected_area[0] *= 1.1F; }));
+    EXPECT_TRUE(broken([&](Hierarchy& h) { h.elements[leaf].rho = Rgb(1.2F); }));
+    std::vector<Link> links = room.links.links();
+    ASSERT_FALSE(links.empty());
+    links.push_back(links[links.size() / 2]);
+    EXPECT_FALSE(check_links(room.hierarchy, links).empty()) << "a pair twice";
+    links = room.links.links();
+    const auto patches = std::find_if(links.begin(), links.end(), [&](const Link& l) { return l.weight > 0.01F; });
+    ASSERT_NE(patches, links.end());
+    links.erase(patches);
+    EXPECT_FALSE(check_links(room.hierarchy, links).empty()) << "a pair missing";
+}
+
+TEST(Hierarchy, IsSoundOnARealInterior) {
+    const auto file = std::filesystem::path(ATRIUM_SHARED_DIR) / "scenes" / "interiors" / "office_simple.glb";
+    if (!std::filesystem::exists(file)) {
+        GTEST_SKIP() << "the shared scenes are absent";
+    }
+    const auto loaded = read_scene(file);
+    ASSERT_TRUE(loaded) << loaded.error().message();
+    const RayScene rays(loaded->scene);
+    const float unit = rays.bounds().diagonal() / 10.0F;
+    const Hierarchy fresh = build_hierarchy(rays, {0.4F * unit, 0.2F * unit});
+    EXPECT_GT(fresh.elements.size(), 1000U);
+    EXPECT_THAT(check_hierarchy(fresh, rays), IsEmpty());
+    Refined refined(loaded->scene, {0.6F * unit, 0.3F * unit}, 1e-2F, 1);
+    EXPECT_THAT(check_hierarchy(refined.hierarchy, refined.rays), IsEmpty());
+    EXPECT_THAT(check_links(refined.hierarchy, refined.links.links()), IsEmpty());
+}
+
+} // namespace
+} // namespace atrium
