@@ -70,7 +70,7 @@ public:
             return;
         }
         out_.elements.emplace_back();
-        out_.elements[0].path = hash64(1);
+        out_.elements[0].path = hash64(out_.settings.seed);
         std::vector<std::span<Item>> parts;
         for (auto* items : {&emitting, &other}) {
             if (!items->empty()) {

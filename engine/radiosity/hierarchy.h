@@ -67,6 +67,7 @@ struct Harmonics {
 struct HierarchySettings {
     float smallest_patch = 0.15F; ///< edge below which a patch is not split
     float group_size = 0.1F;      ///< triangles smaller than this share Faces elements of this extent
+    std::uint32_t seed = 1;       ///< enters every element's path, and through it every random stream
 };
 
 /// Elements and what belongs to them. Built once per geometry; patches are split by the refiner.

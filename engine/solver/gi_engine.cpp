@@ -241,7 +241,9 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
 
     timer.next("hierarchy");
     context.progress("hierarchy", 0.03);
-    s.hierarchy = build_hierarchy(*s.rays, quality.hierarchy);
+    HierarchySettings hierarchy_settings = quality.hierarchy;
+    hierarchy_settings.seed = options.seed;
+    s.hierarchy = build_hierarchy(*s.rays, hierarchy_settings);
     statistics.time.build = seconds_since(start);
     s.light_leaves(quality, context);
     for (Element& e : s.hierarchy.elements) {

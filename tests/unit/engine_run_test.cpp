@@ -178,6 +178,16 @@ TEST(EngineRun, StoppedAnywhereItReturnsSoonAndTheNextSolveIsRight) {
     EXPECT_GT(without, 0);
 }
 
+TEST(EngineRun, AnotherSeedIsAnotherSampleOfTheSameLight) {
+    const Scene scene = furnished();
+    const Solved one = solve(scene, Quality::Draft, 1);
+    const Solved two = solve(scene, Quality::Draft, 2);
+    ASSERT_TRUE(one.solution && two.solution);
+    const double a = mean_irradiance(scene, *one.solution), b = mean_irradiance(scene, *two.solution);
+    EXPECT_NE(a, b) << "the seed reaches no random stream";
+    EXPECT_NEAR(a / b, 1.0, 0.03);
+}
+
 TEST(EngineRun, ADeadlineThatHasPassedOrComesSoon) {
     SolveOptions options;
     options.quality = Quality::Fine;
