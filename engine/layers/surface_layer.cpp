@@ -1,0 +1,31 @@
+#include "engine/layers/surface_layer.h"
+
+namespace atrium {
+
+Rgb vertex_irradiance(const SurfaceLayer& layer, std::uint32_t vertex, bool back, const LightShares& shares) {
+    Rgb sum(0.0F);
+    if (shares.diffuse) {
+        sum += (back ? layer.irradiance_back : layer.irradiance_front)[vertex];
+    }
+    const auto& direct = back ? layer.direct_back : layer.direct_front;
+    if (shares.direct && !direct.empty()) {
+        sum += direct[vertex];
+    }
+    return sum;
+}
+
+Rgb irradiance_at(const SurfaceLayer& layer, const std::array<std::uint32_t, 3>& vertex, const vec3& weight, bool back,
+                  const LightShares& shares) {
+    Rgb sum(0.0F);
+    for (int k = 0; k < 3; ++k) {
+        sum += vertex_irradiance(layer, vertex[std::size_t(k)], back, shares) * weight[k];
+    }
+    const auto& map = back ? layer.direct_map_back : layer.direct_map_front;
+    const auto& uv = layer.mesh->light_uv;
+    if (shares.direct && map && !uv.empty() && uv[vertex[0]].x >= 0.0F) {
+        sum += map->irradiance(uv[vertex[0]] * weight[0] + uv[vertex[1]] * weight[1] + uv[vertex[2]] * weight[2]);
+    }
+    return sum;
+}
+
+} // namespace atrium
