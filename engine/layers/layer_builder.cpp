@@ -15,9 +15,9 @@ constexpr float kPullIn = 0.01F; // metres at most that a sample is moved off it
 
 class LayerBuild {
 public:
-    LayerBuild(const RayScene& rays, const PointGather& gather, const LayerSettings& settings,
+    LayerBuild(const RayScene& rays, const LightField& field, const LightMaps& maps, const LayerSettings& settings,
                const std::function<bool(std::uint32_t)>& back_lit, const RunContext& context)
-        : rays_(rays), gather_(gather), settings_(settings), back_lit_(back_lit), context_(context) {}
+        : rays_(rays), field_(field), maps_(maps), settings_(settings), back_lit_(back_lit), context_(context) {}
 
     LayerSet run(double from, double to) {
         collect();
@@ -72,22 +72,26 @@ private:
         const MeshData& data = *surface.mesh;
         const bool back = surface.back_side && back_lit_(s);
         // Flat-shaded files: triangles of one plane share their vertices all the same, so each is lit once.
-        std::map<std::array<std::int32_t, 4>, std::uint32_t> copied;
-        const auto copy_key = [&](std::uint32_t v, const vec3& face_normal) -> std::array<std::int32_t, 4> {
+        std::map<std::array<std::int32_t, 5>, std::uint32_t> copied;
+        const auto copy_key = [&](std::uint32_t v, const vec3& face_normal,
+                                  std::uint32_t chart) -> std::array<std::int32_t, 5> {
             if (!data.normals.empty()) {
-                return {std::int32_t(v), 0, 0, 0};
+                return {std::int32_t(v), 0, 0, 0, std::int32_t(chart)};
             }
             const vec3 q = glm::round(face_normal * 2000.0F);
-            return {std::int32_t(v), std::int32_t(q.x), std::int32_t(q.y), std::int32_t(q.z)};
+            return {std::int32_t(v), std::int32_t(q.x), std::int32_t(q.y), std::int32_t(q.z), std::int32_t(chart)};
         };
-        for (const uvec3& t : surface.triangles) {
+        const SurfaceCharts* charts = maps_.charts.empty() || maps_.charts[s].empty() ? nullptr : &maps_.charts[s];
+        for (std::size_t index = 0; index < surface.triangles.size(); ++index) {
+            const uvec3& t = surface.triangles[index];
+            const std::uint32_t chart = charts != nullptr ? charts->chart_of_triangle[index] : SurfaceCharts::kNone;
             const auto& p = *surface.positions;
             const vec3 face_normal = glm::normalize(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]));
             MeshTriangle out;
             out.surface = s;
             for (int k = 0; k < 3; ++k) {
                 const std::uint32_t v = t[k];
-                const auto key_of_copy = copy_key(v, face_normal);
+                const auto key_of_copy = copy_key(v, face_normal, chart);
                 if (const auto it = copied.find(key_of_copy); it != copied.end()) {
                     out.v[std::size_t(k)] = it->second;
                     continue;
@@ -96,6 +100,9 @@ private:
                 vertex.local = data.positions[v];
                 vertex.position = p[v];
                 vertex.wants_back = back;
+                if (chart != SurfaceCharts::kNone) {
+                    vertex.light_uv = charts->uv[index][std::size_t(k)];
+                }
                 if (data.normals.empty()) {
                     vertex.normal = face_normal;
                     const dvec3 local = glm::transpose(dmat3(surface.to_engine)) * dvec3(face_normal);
@@ -179,17 +186,28 @@ private:
     }
 
     void sample_vertex(LightVertex& v) const {
-        sample_side(v, v.normal, v.front, v.front_covered);
+        sample_side(v, v.normal, v.front, v.front_direct, v.front_covered);
         if (v.wants_back) {
-            sample_side(v, -v.normal, v.back, v.back_covered);
+            sample_side(v, -v.normal, v.back, v.back_direct, v.back_covered);
         }
     }
 
-    void sample_side(const LightVertex& v, const vec3& n, DirectSample& sample, bool& is_covered) const {
+    void sample_side(const LightVertex& v, const vec3& n, DirectSample& reflected, DirectSample& direct,
+                     bool& is_covered) const {
         const vec3 p = sample_position(v, n);
-        sample = gather_.irradiance(p, n, settings_.gather);
-        is_covered = luminance(sample.irradiance) < settings_.light_floor && covered(p, n);
+        reflected = field_.reflected(p, n);
+        if (!v.charted()) {
+            direct = field_.direct(p, n);
+        }
+        is_covered = luminance(reflected.irradiance + direct.irradiance) < settings_.light_floor && covered(p, n);
     }
+
+    /// Light of a side that vertices interpolate: what decides where more of them are needed.
+    static DirectSample shown(const DirectSample& reflected, const DirectSample& direct) {
+        return {reflected.irradiance + direct.irradiance, reflected.variance + direct.variance};
+    }
+    static DirectSample front(const LightVertex& v) { return shown(v.front, v.front_direct); }
+    static DirectSample back(const LightVertex& v) { return shown(v.back, v.back_direct); }
 
     // True where no light can reach because something rests on the surface or encloses the point: every way out of the
     // half space is shut within a few centimetres, or ends on the unlit inside of a solid. (The underside of a box that
@@ -228,7 +246,7 @@ private:
             const float x = luminance(p.irradiance), y = luminance(q.irradiance);
             return std::abs(x - y) <= settings_.contrast * std::max({x, y, settings_.light_floor});
         };
-        return a.front_covered == b.front_covered && close(a.front, b.front) && (!a.wants_back || close(a.back, b.back));
+        return a.front_covered == b.front_covered && close(front(a), front(b)) && (!a.wants_back || close(back(a), back(b)));
     }
 
     // One level: samples the midpoints of all open edges, splits those that deviate. False when nothing was split.
@@ -287,12 +305,12 @@ private:
             // Between covered points there is nothing to see; the border itself is the object's and needs no finer mesh.
             float d = 0.0F;
             if (int(a.front_covered) + int(b.front_covered) + int(c.middle.front_covered) == 0) {
-                d = deviation(a.front, c.middle.front, b.front, settings_.light_floor);
+                d = deviation(front(a), front(c.middle), front(b), settings_.light_floor);
             } else if (a.front_covered != b.front_covered) {
                 d = 2.0F * settings_.contrast; // look where the cover ends
             }
             if (a.wants_back && int(a.back_covered) + int(b.back_covered) + int(c.middle.back_covered) == 0) {
-                d = std::max(d, deviation(a.back, c.middle.back, b.back, settings_.light_floor));
+                d = std::max(d, deviation(back(a), back(c.middle), back(b), settings_.light_floor));
             }
             if (d > settings_.contrast) {
                 strong.emplace_back(d, i);
@@ -350,8 +368,12 @@ private:
         for (NodeMesh& mesh : meshes_) {
             fill_covered(mesh, &LightVertex::front_covered, &LightVertex::front);
             fill_covered(mesh, &LightVertex::back_covered, &LightVertex::back);
-            smooth_noise(mesh, &LightVertex::front);
-            smooth_noise(mesh, &LightVertex::back);
+            fill_covered(mesh, &LightVertex::front_covered, &LightVertex::front_direct);
+            fill_covered(mesh, &LightVertex::back_covered, &LightVertex::back_direct);
+            for (DirectSample LightVertex::*sample :
+                 {&LightVertex::front, &LightVertex::back, &LightVertex::front_direct, &LightVertex::back_direct}) {
+                smooth_noise(mesh, sample);
+            }
             std::map<std::uint32_t, std::vector<const MeshTriangle*>> by_surface;
             for (const MeshTriangle& t : mesh.triangles) {
                 by_surface[t.surface].push_back(&t);
@@ -364,6 +386,12 @@ private:
                 layer->node = surface.node;
                 layer->part = surface.part;
                 std::unordered_map<std::uint32_t, std::uint32_t> index;
+                const auto map_of = [&](const auto& maps) { return maps.empty() ? nullptr : maps[s]; };
+                const bool charted = !maps_.charts.empty() && !maps_.charts[s].empty();
+                if (charted) {
+                    layer->direct_map_front = map_of(maps_.front);
+                    layer->direct_map_back = map_of(maps_.back);
+                }
                 const Rgb rho = diffuse_reflectance(rays_.material(s));
                 for (const MeshTriangle* t : triangles) {
                     const auto& v = mesh.vertices;
@@ -375,20 +403,32 @@ private:
                         const std::uint32_t key = t->v[surface.mirrored ? (3 - k) % 3 : k];
                         const auto [it, fresh] = index.try_emplace(key, std::uint32_t(display->positions.size()));
                         if (fresh) {
-                            add_output(*display, *layer, data, vertex);
+                            add_output(*display, *layer, data, vertex, charted);
                         }
                         display->indices.push_back(it->second);
                         const double w = area / 3.0;
-                        const double e = luminance(vertex.front.irradiance);
+                        const DirectSample light = front(vertex);
+                        const Rgb mapped = vertex.charted() && layer->direct_map_front
+                                               ? layer->direct_map_front->irradiance(vertex.light_uv)
+                                               : Rgb(0.0F);
+                        const double e = luminance(light.irradiance + mapped);
                         const double level = e + settings_.light_floor;
-                        error += level > 0.0 ? w * vertex.front.variance / (level * level) : 0.0;
+                        error += level > 0.0 ? w * light.variance / (level * level) : 0.0;
                         area_sum += w;
-                        const double radiance = luminance(rho * vertex.front.irradiance) / kPiD;
+                        const double radiance = luminance(rho * (light.irradiance + mapped)) / kPiD;
                         // Outer sides and closed cupboards are dark and not what anyone looks at.
                         if (radiance > 0.0 && e > settings_.light_floor) {
                             log_sum += w * std::log(radiance);
                             log_area += w;
                         }
+                    }
+                }
+                for (auto* direct : {&layer->direct_front, &layer->direct_back}) {
+                    const bool dark =
+                        std::all_of(direct->begin(), direct->end(), [](const Rgb& e) { return e == Rgb(0.0F); });
+                    if (dark) {
+                        direct->clear();
+                        direct->shrink_to_fit();
                     }
                 }
                 out.vertices += display->positions.size();
@@ -402,7 +442,8 @@ private:
         return out;
     }
 
-    static void add_output(DisplayMesh& display, SurfaceLayer& layer, const MeshData& data, const LightVertex& v) {
+    static void add_output(DisplayMesh& display, SurfaceLayer& layer, const MeshData& data, const LightVertex& v,
+                           bool charted) {
         display.positions.push_back(v.local);
         display.normals.push_back(v.local_normal);
         if (!data.texcoords0.empty()) {
@@ -414,14 +455,20 @@ private:
         if (!data.colors.empty()) {
             display.colors.push_back(v.color);
         }
+        if (charted) {
+            display.light_uv.push_back(v.light_uv);
+        }
         layer.irradiance_front.push_back(v.front.irradiance);
+        layer.direct_front.push_back(v.front_direct.irradiance);
         if (v.wants_back) {
             layer.irradiance_back.push_back(v.back.irradiance);
+            layer.direct_back.push_back(v.back_direct.irradiance);
         }
     }
 
     const RayScene& rays_;
-    const PointGather& gather_;
+    const LightField& field_;
+    const LightMaps& maps_;
     const LayerSettings& settings_;
     const std::function<bool(std::uint32_t)>& back_lit_;
     const RunContext& context_;
@@ -434,17 +481,20 @@ private:
 std::size_t LayerSet::memory_bytes() const {
     std::size_t bytes = 0;
     for (const auto& s : surfaces) {
-        bytes += s->mesh->positions.size() * (2 * sizeof(vec3) + 2 * sizeof(vec2)) +
+        bytes += s->mesh->positions.size() * (2 * sizeof(vec3) + 3 * sizeof(vec2)) +
                  s->mesh->indices.size() * sizeof(std::uint32_t) +
-                 (s->irradiance_front.size() + s->irradiance_back.size()) * sizeof(Rgb);
+                 (s->irradiance_front.size() + s->irradiance_back.size() + s->direct_front.size() + s->direct_back.size()) *
+                     sizeof(Rgb) +
+                 (s->direct_map_front ? s->direct_map_front->memory_bytes() : 0) +
+                 (s->direct_map_back ? s->direct_map_back->memory_bytes() : 0);
     }
     return bytes;
 }
 
-LayerSet build_layers(const RayScene& rays, const PointGather& gather, const LayerSettings& settings,
+LayerSet build_layers(const RayScene& rays, const LightField& field, const LightMaps& maps, const LayerSettings& settings,
                       const std::function<bool(std::uint32_t)>& back_lit, const RunContext& context, double progress_from,
                       double progress_to) {
-    return LayerBuild(rays, gather, settings, back_lit, context).run(progress_from, progress_to);
+    return LayerBuild(rays, field, maps, settings, back_lit, context).run(progress_from, progress_to);
 }
 
 } // namespace atrium

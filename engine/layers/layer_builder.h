@@ -2,11 +2,13 @@
 #pragma once
 
 #include "engine/base/run_context.h"
+#include "engine/geometry/surface_charts.h"
 #include "engine/layers/surface_layer.h"
-#include "engine/radiosity/point_gather.h"
+#include "engine/radiosity/direct_light.h"
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace atrium {
@@ -17,7 +19,19 @@ struct LayerSettings {
     float contrast = 0.08F;             ///< relative deviation of a midpoint from its ends' mean that asks for a split
     float light_floor = 1.0F;           ///< lux: differences are judged against at least this irradiance
     std::size_t max_vertices = 600'000; ///< added vertices at most; the strongest contrasts first
-    GatherSettings gather;
+};
+
+/// The light field that is sampled: irradiance at a point (engine coordinates) with unit normal. Called from many threads.
+struct LightField {
+    std::function<DirectSample(const vec3& point, const vec3& normal)> reflected; ///< from other surfaces
+    std::function<DirectSample(const vec3& point, const vec3& normal)> direct;    ///< from lamps, sun and sky
+};
+
+/// Light maps of all surfaces and what they belong to; spans are empty or have one entry per ray surface.
+struct LightMaps {
+    std::span<const SurfaceCharts> charts;
+    std::span<const std::shared_ptr<const LightMap>> front;
+    std::span<const std::shared_ptr<const LightMap>> back;
 };
 
 /// What build_layers() makes.
@@ -30,10 +44,11 @@ struct LayerSet {
     [[nodiscard]] std::size_t memory_bytes() const;
 };
 
-/// Samples irradiance on the vertices of all surfaces. Edges are split at their midpoint by a rule that looks at nothing but
-/// the edge, and coincident edges of one node are split together, so no T-vertex arises; triangles with one, two or three
-/// split edges become two, three or four. `back_lit(surface)` tells whether the back side can receive light at all.
-LayerSet build_layers(const RayScene& rays, const PointGather& gather, const LayerSettings& settings,
+/// Samples irradiance on the vertices of all surfaces: reflected light everywhere, direct light where no chart and so no
+/// light map has it. Edges are split at their midpoint by a rule that looks at nothing but the edge, and coincident edges of
+/// one node are split together, so no T-vertex arises; triangles with one, two or three split edges become two, three or
+/// four. `back_lit(surface)` tells whether the back side can receive light at all.
+LayerSet build_layers(const RayScene& rays, const LightField& field, const LightMaps& maps, const LayerSettings& settings,
                       const std::function<bool(std::uint32_t surface)>& back_lit, const RunContext& context,
                       double progress_from, double progress_to);
 

@@ -48,6 +48,7 @@ LightVertex midpoint(const LightVertex& a, const LightVertex& b) {
     m.normal = mean_normal(a.normal, b.normal);
     m.uv0 = 0.5F * (a.uv0 + b.uv0);
     m.uv1 = 0.5F * (a.uv1 + b.uv1);
+    m.light_uv = 0.5F * (a.light_uv + b.light_uv);
     m.color = 0.5F * (a.color + b.color);
     m.wants_back = a.wants_back;
     return m;

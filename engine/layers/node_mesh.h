@@ -26,8 +26,13 @@ struct LightVertex {
     bool wants_back = false;
     bool front_covered = false; ///< something lies on the surface here: no light of its own, shown like its neighbours
     bool back_covered = false;
-    DirectSample front;
+    vec2 light_uv{-1.0F}; ///< chart-space coordinates (tiles); negative: uncharted, direct light is sampled here
+    DirectSample front;   ///< reflected light
     DirectSample back;
+    DirectSample front_direct; ///< straight from lamps, sun and sky; uncharted vertices only
+    DirectSample back_direct;
+
+    [[nodiscard]] bool charted() const { return light_uv.x >= 0.0F; }
 };
 
 /// Triangle of the growing mesh; indices into NodeMesh::vertices.

@@ -66,6 +66,13 @@ public:
                 }
             }
         }
+        out_.first_side.resize(surfaces.size());
+        std::size_t sides = 0;
+        for (std::size_t i = 0; i < surfaces.size(); ++i) {
+            out_.first_side[i] = sides;
+            sides += 2 * surfaces[i].triangles.size();
+        }
+        out_.top_of_side.assign(sides, Element::kNone);
         if (emitting.empty() && other.empty()) {
             return;
         }
@@ -209,6 +216,11 @@ private:
                                                  color_samples(rays_, e.surface, kPattern.size()));
         e.rho = color.rho;
         e.emitted = color.emitted;
+        note_side(index, item.face);
+    }
+
+    void note_side(std::uint32_t index, const Face& face) {
+        out_.top_of_side[out_.first_side[face.surface] + 2 * std::size_t(face.triangle) + (face.back ? 1 : 0)] = index;
     }
 
     void make_faces(std::uint32_t index, std::span<const Item> items) {
@@ -222,6 +234,7 @@ private:
         for (const Item& item : items) {
             const Face& face = item.face;
             out_.faces.push_back(face);
+            note_side(index, face);
             for (const vec3& p : rays_.triangle(face.surface, face.triangle)) {
                 box.add(p);
             }
@@ -250,7 +263,7 @@ private:
 
 std::size_t Hierarchy::memory_bytes() const {
     return elements.capacity() * sizeof(Element) + harmonics.capacity() * sizeof(Harmonics) +
-           faces.capacity() * sizeof(Face);
+           faces.capacity() * sizeof(Face) + top_of_side.capacity() * sizeof(std::uint32_t);
 }
 
 bool Hierarchy::can_split(std::uint32_t index) const {
@@ -303,6 +316,36 @@ void Hierarchy::split(std::uint32_t index, const RayScene& rays) {
             child.emitted = color.emitted;
         }
     }
+}
+
+namespace {
+
+// Positive inside the triangle, either way round; the larger the deeper.
+float depth_inside(const std::array<vec2, 3>& t, const vec2& p) {
+    const auto cross = [](const vec2& a, const vec2& b, const vec2& c) {
+        return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    };
+    const float turn = cross(t[0], t[1], t[2]) < 0.0F ? -1.0F : 1.0F;
+    return turn * (turn > 0.0F ? std::min({cross(t[0], t[1], p), cross(t[1], t[2], p), cross(t[2], t[0], p)})
+                               : std::max({cross(t[0], t[1], p), cross(t[1], t[2], p), cross(t[2], t[0], p)}));
+}
+
+} // namespace
+
+std::uint32_t Hierarchy::leaf_at(std::uint32_t surface, std::uint32_t triangle, bool back, const vec2& barycentric) const {
+    std::uint32_t at = top_of_side[first_side[surface] + 2 * std::size_t(triangle) + (back ? 1 : 0)];
+    while (at != Element::kNone && !elements[at].leaf()) {
+        const Element& e = elements[at];
+        float best = -std::numeric_limits<float>::infinity();
+        for (std::uint32_t k = 0; k < e.child_count; ++k) {
+            const float depth = depth_inside(elements[e.first_child + k].barycentric, barycentric);
+            if (depth > best) {
+                best = depth;
+                at = e.first_child + k;
+            }
+        }
+    }
+    return at;
 }
 
 std::vector<std::uint32_t> Hierarchy::leaves() const {

@@ -47,7 +47,8 @@ struct Element {
     std::array<vec2, 3> barycentric{}; ///< Patch: corners in its triangle's barycentric coordinates
     Rgb rho{0.0F};                     ///< mean reflectance
     Rgb emitted{0.0F};                 ///< mean exitance M
-    Rgb direct{0.0F};                  ///< mean irradiance of sun, sky, point and spot lights (leaves)
+    Rgb direct{0.0F};                  ///< mean irradiance of sun, sky, point and spot lights and named
+                                       ///< emitters, see light_split.h (leaves)
     Rgb irradiance{0.0F};              ///< mean irradiance E from the other elements
     Rgb radiosity{0.0F};               ///< mean B
     float spread = 0.0F;               ///< largest deviation of luminance(B) of a Patch below from this one's
@@ -76,6 +77,8 @@ struct Hierarchy {
     std::vector<Harmonics> harmonics;
     std::vector<Face> faces;
     HierarchySettings settings;
+    std::vector<std::size_t> first_side;    ///< per surface, into top_of_side
+    std::vector<std::uint32_t> top_of_side; ///< element that holds a triangle side: [first_side[s] + 2 triangle + back]
 
     [[nodiscard]] bool empty() const { return elements.empty(); }
     [[nodiscard]] std::size_t memory_bytes() const;
@@ -85,6 +88,9 @@ struct Hierarchy {
     void split(std::uint32_t element, const RayScene& rays);
     /// Indices of leaves in storage order.
     [[nodiscard]] std::vector<std::uint32_t> leaves() const;
+    /// Leaf that covers a point of a triangle side (barycentric as in Hit); kNone where the side is no part of the tree.
+    [[nodiscard]] std::uint32_t leaf_at(std::uint32_t surface, std::uint32_t triangle, bool back,
+                                        const vec2& barycentric) const;
     /// Recomputes power and spread of every element from the leaves' radiosity, and all radiosities above them.
     void pull_radiosity();
 };

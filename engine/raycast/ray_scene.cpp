@@ -386,6 +386,10 @@ Rgb RayScene::transmittance_to_infinity(const vec3& from, const vec3& direction)
     return impl_->transmit(*this, from, direction, end_offset(from), std::numeric_limits<float>::infinity());
 }
 
+Rgb RayScene::let_through(const Hit& hit, const vec3& direction) const {
+    return lets_light_through(*impl_->materials[hit.surface]) ? impl_->filter(*this, hit, direction) : Rgb(0.0F);
+}
+
 Hit RayScene::first_pane(const vec3& from, const vec3& direction) const {
     float tnear = 0.0F;
     for (int crossing = 0; impl_->any_filter && crossing < kMaxCrossings; ++crossing) {

@@ -74,6 +74,9 @@ public:
     /// The same along a ray that never ends (sun, sky).
     [[nodiscard]] Rgb transmittance_to_infinity(const vec3& from, const vec3& direction) const;
 
+    /// Share of light that goes straight on at a hit (glass, alpha blending), 0 for what is opaque.
+    [[nodiscard]] Rgb let_through(const Hit& hit, const vec3& direction) const;
+
     /// First pane that a ray without end crosses, whatever stands in between; none when it crosses no pane.
     [[nodiscard]] Hit first_pane(const vec3& from, const vec3& direction) const;
 

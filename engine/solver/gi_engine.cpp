@@ -4,6 +4,7 @@
 #include "engine/base/rng.h"
 #include "engine/layers/layer_builder.h"
 #include "engine/radiosity/direct_light.h"
+#include "engine/radiosity/indirect_gather.h"
 #include "engine/radiosity/leaf_surroundings.h"
 #include "engine/radiosity/links.h"
 #include "engine/radiosity/point_gather.h"
@@ -54,17 +55,41 @@ private:
 
 struct GiEngine::Impl {
     std::unique_ptr<RayScene> rays;
-    std::unique_ptr<DirectLight> direct;
+    std::unique_ptr<DirectLight> punctual; ///< sun, sky, point and spot lights
     Hierarchy hierarchy;
-    GatherSettings gather_settings;
+    Hierarchy emitters;                  ///< the tree in which only named emitters shine; empty when there are none
+    std::unique_ptr<PointGather> direct; ///< named emitters and `punctual` together
+    std::unique_ptr<IndirectGather> reflected;
+    FieldSettings field;
+    double named_flux = 0.0; ///< of the named emitters, lumen
     bool solved = false;
+
+    [[nodiscard]] bool nothing_direct() const { return punctual->empty() && emitters.empty(); }
+    [[nodiscard]] DirectSample direct_light(const vec3& point, const vec3& normal, const GatherSettings& settings) const {
+        return direct->irradiance(point, normal, settings);
+    }
+
+    // Lamps that stand out leave the hierarchy: what they send is gathered straight from them.
+    void name_emitters(float contrast) {
+        const LeafFlags named = named_emitters(hierarchy, {}, contrast);
+        if (std::any_of(named.begin(), named.end(), [](std::uint8_t f) { return f != 0; })) {
+            emitters = only_flagged(hierarchy, named, true);
+            for (std::size_t i = 0; i < named.size(); ++i) {
+                if (named[i] != 0) {
+                    Element& e = hierarchy.elements[i];
+                    named_flux += double(e.area) * luminance(e.emitted);
+                    e.emitted = Rgb(0.0F);
+                }
+            }
+        }
+        direct = std::make_unique<PointGather>(emitters, *rays, *punctual);
+    }
 
     // Direct light on every leaf; leaves whose samples disagree are split first, so that sun patches find their place.
     void light_leaves(const QualitySettings& quality, const RunContext& context) {
-        if (direct->empty()) {
+        if (nothing_direct()) {
             return;
         }
-        const unsigned sky_rays = std::max(quality.layers.gather.sky_rays / 8, 16U);
         std::vector<std::uint32_t> todo = hierarchy.leaves();
         double flux = 0.0;
         for (int level = 0; level < 6 && !todo.empty() && !context.should_stop(); ++level) {
@@ -74,7 +99,7 @@ struct GiEngine::Impl {
                     return;
                 }
                 for (std::size_t i = begin; i < end; ++i) {
-                    spread[i] = light_leaf(todo[i], quality.leaf_samples, sky_rays);
+                    spread[i] = light_leaf(todo[i], quality);
                 }
             });
             if (level == 0) {
@@ -100,14 +125,14 @@ struct GiEngine::Impl {
     }
 
     // Mean direct irradiance of a leaf; returns the standard deviation of its samples.
-    float light_leaf(std::uint32_t index, unsigned samples, unsigned sky_rays) {
+    float light_leaf(std::uint32_t index, const QualitySettings& quality) {
         Element& e = hierarchy.elements[index];
-        const unsigned n = e.kind == Element::Kind::Patch ? samples * 2 : samples;
+        const unsigned n = e.kind == Element::Kind::Patch ? quality.leaf_samples * 2 : quality.leaf_samples;
         Rgb sum(0.0F);
         double sum2 = 0.0;
         for (unsigned i = 0; i < n; ++i) {
             const SurfacePoint p = sample_point(hierarchy, *rays, index, sobol_owen2(i, 0, std::uint32_t(e.path)), false);
-            const Rgb light = direct->irradiance(p.position, p.normal, 1, sky_rays).irradiance;
+            const Rgb light = direct_light(p.position, p.normal, quality.leaf_field.direct).irradiance;
             sum += light;
             sum2 += double(luminance(light)) * luminance(light);
         }
@@ -118,17 +143,16 @@ struct GiEngine::Impl {
 
     // Leaves split after light_leaves() have their parent's direct light; sample what is new.
     void light_new_leaves(std::size_t first_new, const QualitySettings& quality, const RunContext& context) {
-        if (direct->empty() || context.should_stop()) {
+        if (nothing_direct() || context.should_stop()) {
             return;
         }
-        const unsigned sky_rays = std::max(quality.layers.gather.sky_rays / 8, 16U);
         parallel_chunks(hierarchy.elements.size() - first_new, 32, [&](std::size_t begin, std::size_t end, std::size_t) {
             if (context.should_stop()) {
                 return;
             }
             for (std::size_t i = begin; i < end; ++i) {
                 if (hierarchy.elements[first_new + i].leaf()) {
-                    light_leaf(std::uint32_t(first_new + i), quality.leaf_samples, sky_rays);
+                    light_leaf(std::uint32_t(first_new + i), quality);
                 }
             }
         });
@@ -162,9 +186,9 @@ struct GiEngine::Impl {
             leaving += double(e.area) * luminance(e.radiosity) * std::max(1.0 - double(transport.row_sums()[i]), 0.0);
         }
         // What sun, sky and lamps bring in counts where it lands; a lamp's light that lands nowhere has escaped at once.
-        const double lamps = direct->emitted_flux();
-        bool from_outside = direct->has_sky();
-        for (const PlacedLight& light : direct->lights()) {
+        const double lamps = punctual->emitted_flux() + named_flux;
+        bool from_outside = punctual->has_sky();
+        for (const PlacedLight& light : punctual->lights()) {
             from_outside = from_outside || light.light.kind == Light::Kind::Directional;
         }
         const double lost = from_outside ? 0.0 : std::max(lamps - direct_in, 0.0);
@@ -234,10 +258,10 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     timer.next("ray_scene");
     context.progress("ray_scene", 0.0);
     s.rays = std::make_unique<RayScene>(scene);
-    s.direct = std::make_unique<DirectLight>(scene, *s.rays);
+    s.punctual = std::make_unique<DirectLight>(scene, *s.rays);
     statistics.triangles = s.rays->triangle_count();
     const QualitySettings quality = quality_settings(options.quality, s.rays->bounds().diagonal(), options.target_error);
-    s.gather_settings = quality.layers.gather;
+    s.field = quality.field;
 
     timer.next("hierarchy");
     context.progress("hierarchy", 0.03);
@@ -245,6 +269,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     hierarchy_settings.seed = options.seed;
     s.hierarchy = build_hierarchy(*s.rays, hierarchy_settings);
     statistics.time.build = seconds_since(start);
+    s.name_emitters(quality.emitter_contrast);
     s.light_leaves(quality, context);
     for (Element& e : s.hierarchy.elements) {
         e.radiosity = e.leaf() ? e.emitted + e.rho * e.direct : Rgb(0.0F);
@@ -254,9 +279,13 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         return stopped();
     }
 
-    PointGather gather(s.hierarchy, *s.rays, *s.direct);
-    const auto layers = [&](const LayerSettings& wanted, double from, double to) {
+    const auto layers = [&](const LayerSettings& wanted, const FieldSettings& field, double from, double to) {
         timer.next("layers");
+        s.reflected =
+            std::make_unique<IndirectGather>(s.hierarchy, *s.rays, bright_leaves(s.hierarchy, {}, quality.bright_contrast));
+        const LightField light_field{
+            [&](const vec3& p, const vec3& n) { return s.reflected->irradiance(p, n, field.reflected); },
+            [&](const vec3& p, const vec3& n) { return s.direct_light(p, n, field.direct); }};
         LayerSettings settings = wanted;
         double light = 0.0;
         double area = 0.0;
@@ -269,7 +298,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         settings.light_floor = area > 0.0 ? float(0.05 * light / area) : 1.0F;
         const std::vector<std::uint8_t> lit = s.back_lit_surfaces();
         return build_layers(
-            *s.rays, gather, settings, [&](std::uint32_t surface) { return lit[surface] != 0; }, context, from, to);
+            *s.rays, light_field, {}, settings, [&](std::uint32_t surface) { return lit[surface] != 0; }, context, from, to);
     };
 
     LinkSet links(s.hierarchy);
@@ -312,7 +341,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         }
         if (round == 0) {
             s.solved = true;
-            LayerSet first = layers(quality.first_layers, at + step, at + 2.0 * step);
+            LayerSet first = layers(quality.first_layers, quality.first_field, at + step, at + 2.0 * step);
             timer.stop();
             if (!first.complete) {
                 return stopped();
@@ -322,7 +351,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     }
     s.solved = true;
     context.progress("layers", 0.4);
-    LayerSet set = layers(quality.layers, 0.4, 1.0);
+    LayerSet set = layers(quality.layers, quality.field, 0.4, 1.0);
     timer.stop();
     if (!set.complete) {
         return stopped();
@@ -334,20 +363,25 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
 
 SensorReading GiEngine::gather_free(const dvec3& point, const dvec3& normal) const {
     SensorReading out;
-    if (!impl_->solved) {
+    if (!impl_->solved || !impl_->reflected) {
         return out;
     }
-    GatherSettings settings = impl_->gather_settings;
-    settings.rays *= 8; // a single sensor can afford what a picture cannot
-    settings.sky_rays *= 8;
-    settings.sun_rays *= 4;
-    settings.max_cut *= 4;
-    settings.tolerance *= 0.25F;
-    const PointGather gather(impl_->hierarchy, *impl_->rays, *impl_->direct);
-    const DirectSample sample =
-        gather.irradiance(vec3(point - impl_->rays->origin()), vec3(glm::normalize(normal)), settings);
-    out.irradiance = sample.irradiance;
-    out.standard_error = std::sqrt(sample.variance);
+    FieldSettings field = impl_->field;
+    for (GatherSettings* g : {&field.direct, &field.reflected.bright}) {
+        g->rays *= 8; // a single sensor can afford what a picture cannot
+        g->sky_rays *= 8;
+        g->sun_rays *= 4;
+        g->max_cut *= 4;
+        g->tolerance *= 0.25F;
+    }
+    field.reflected.rays *= 8;
+    field.reflected.max_rays *= 8;
+    const vec3 at(point - impl_->rays->origin());
+    const vec3 unit(glm::normalize(normal));
+    const DirectSample direct = impl_->direct_light(at, unit, field.direct);
+    const DirectSample reflected = impl_->reflected->irradiance(at, unit, field.reflected);
+    out.irradiance = direct.irradiance + reflected.irradiance;
+    out.standard_error = std::sqrt(direct.variance + reflected.variance);
     return out;
 }
 

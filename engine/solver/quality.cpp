@@ -13,30 +13,39 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     QualitySettings out;
     const float unit = std::max(diagonal, 1e-6F) / 10.0F; // lengths below are for a room with a diagonal of 10 m
     const auto set = [&](float patch, float group, float threshold, unsigned link_rays, float base, float smallest,
-                         float contrast, float tolerance, unsigned cut, unsigned rays, unsigned sun, unsigned sky) {
+                         float contrast) {
         out.hierarchy = {patch * unit, group * unit};
         out.refine.flux_threshold = threshold;
         out.refine.rays = link_rays;
         out.layers.base_edge = base * unit;
         out.layers.smallest_edge = smallest * unit;
         out.layers.contrast = contrast;
-        out.layers.gather.tolerance = tolerance;
-        out.layers.gather.max_cut = cut;
-        out.layers.gather.rays = rays;
-        out.layers.gather.sun_rays = sun;
-        out.layers.gather.sky_rays = sky;
+    };
+    const auto look = [](float tolerance, unsigned cut, unsigned rays, unsigned sun, unsigned sky, unsigned hemisphere) {
+        FieldSettings f;
+        f.direct = {tolerance, cut, rays, sun, sky};
+        f.reflected.rays = hemisphere;
+        f.reflected.max_rays = 4 * hemisphere;
+        f.reflected.tolerance = tolerance;
+        f.reflected.bright = {2.0F * tolerance, cut, rays / 2, 0, 0};
+        return f;
     };
     double usual_error = 0.05;
     switch (quality) {
     case SolverSettings::Quality::Draft:
-        set(0.4F, 0.2F, 1e-3F, 4, 1.0F, 0.12F, 0.15F, 0.05F, 96, 24, 4, 36);
+        set(0.5F, 0.2F, 2e-3F, 4, 1.0F, 0.12F, 0.15F);
+        out.field = look(0.05F, 96, 24, 4, 36, 32);
         out.refine_rounds = 1;
         out.solver_tolerance = 1e-3;
         usual_error = 0.10;
         break;
-    case SolverSettings::Quality::Normal: set(0.2F, 0.12F, 2e-4F, 8, 0.5F, 0.03F, 0.06F, 0.02F, 192, 80, 12, 96); break;
+    case SolverSettings::Quality::Normal:
+        set(0.3F, 0.15F, 5e-4F, 8, 0.5F, 0.03F, 0.06F);
+        out.field = look(0.02F, 192, 64, 16, 96, 64);
+        break;
     case SolverSettings::Quality::Fine:
-        set(0.1F, 0.06F, 5e-5F, 16, 0.25F, 0.015F, 0.03F, 0.008F, 400, 192, 32, 256);
+        set(0.15F, 0.08F, 1e-4F, 16, 0.25F, 0.015F, 0.03F);
+        out.field = look(0.008F, 400, 192, 32, 256, 256);
         out.refine_rounds = 3;
         out.solver_tolerance = 1e-5;
         usual_error = 0.02;
@@ -45,21 +54,23 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     if (target_error > 0.0) {
         const double ratio = std::clamp(usual_error / target_error, 0.25, 8.0);
         const auto scaled = [&](unsigned n) { return unsigned(std::clamp(std::lround(n * ratio * ratio), 4L, 4096L)); };
-        out.layers.gather.rays = scaled(out.layers.gather.rays);
-        out.layers.gather.sky_rays = scaled(out.layers.gather.sky_rays);
-        out.layers.gather.sun_rays = scaled(out.layers.gather.sun_rays);
-        out.layers.gather.tolerance = float(out.layers.gather.tolerance / ratio);
+        for (GatherSettings* g : {&out.field.direct, &out.field.reflected.bright}) {
+            g->rays = scaled(g->rays);
+            g->sky_rays = scaled(g->sky_rays);
+            g->sun_rays = scaled(g->sun_rays);
+            g->tolerance = float(g->tolerance / ratio);
+        }
+        out.field.reflected.rays = scaled(out.field.reflected.rays);
+        out.field.reflected.max_rays = scaled(out.field.reflected.max_rays);
+        out.field.reflected.tolerance = float(out.field.reflected.tolerance / ratio);
         out.refine.flux_threshold = float(out.refine.flux_threshold / ratio);
     }
+    out.first_field = look(0.05F, 96, 16, 4, 24, 16);
+    out.leaf_field = look(0.05F, 96, 8, 1, std::max(out.field.direct.sky_rays / 8, 16U), 16);
     out.first_layers = out.layers;
     out.first_layers.base_edge = 2.0F * out.layers.base_edge;
     out.first_layers.max_vertices = 20'000;
     out.first_layers.smallest_edge = std::max(out.layers.smallest_edge, 0.25F * unit);
-    out.first_layers.gather.tolerance = 0.05F;
-    out.first_layers.gather.max_cut = 128;
-    out.first_layers.gather.rays = 16;
-    out.first_layers.gather.sun_rays = 2;
-    out.first_layers.gather.sky_rays = 24;
     return out;
 }
 

@@ -2,16 +2,28 @@
 #pragma once
 
 #include "engine/layers/layer_builder.h"
+#include "engine/radiosity/indirect_gather.h"
 #include "engine/radiosity/links.h"
 #include "engine/scene/scene.h"
 
 namespace atrium {
+
+/// How closely the light at one point is looked at.
+struct FieldSettings {
+    GatherSettings direct; ///< named emitters, sun, sky and lamps
+    IndirectSettings reflected;
+};
 
 struct QualitySettings {
     HierarchySettings hierarchy;
     RefineSettings refine;
     LayerSettings first_layers; ///< of the first picture
     LayerSettings layers;
+    FieldSettings first_field;
+    FieldSettings field;
+    FieldSettings leaf_field;       ///< of the means on leaves
+    float emitter_contrast = 4.0F;  ///< exitance over its room's mean that makes an emitter a named one
+    float bright_contrast = 4.0F;   ///< radiosity over its room's mean that makes a leaf stand out
     int refine_rounds = 2;          ///< refinements, each followed by a solve
     double solver_tolerance = 1e-4; ///< relative residual
     int max_iterations = 400;

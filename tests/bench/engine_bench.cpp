@@ -1,7 +1,7 @@
 // Where the time of a solve goes, step by step, on a room with furniture. Counters give the floor: rays and links a second.
 #include "engine/base/rng.h"
+#include "engine/radiosity/indirect_gather.h"
 #include "engine/radiosity/links.h"
-#include "engine/radiosity/point_gather.h"
 #include "engine/radiosity/transport.h"
 #include "engine/solver/quality.h"
 #include "tests/support/rooms.h"
@@ -102,12 +102,12 @@ void gather_at_a_point(benchmark::State& state) {
     Transport transport(room.hierarchy, room.links.links());
     transport.close_rows(std::vector<std::uint8_t>(transport.leaves().size(), 1));
     solve_radiosity(room.hierarchy, transport, 1e-4, 200, RunContext{});
-    const PointGather gather(room.hierarchy, room.rays, room.direct);
+    const IndirectGather gather(room.hierarchy, room.rays, bright_leaves(room.hierarchy, {}, room.quality.bright_contrast));
     const std::uint64_t before = room.rays.rays_traced();
     std::uint32_t i = 0;
     for (auto _ : state) {
         const SurfacePoint p = sample_point(room.hierarchy, room.rays, 0, sobol_owen2(i++, 0, 7U), false);
-        benchmark::DoNotOptimize(gather.irradiance(p.position, p.normal, room.quality.layers.gather));
+        benchmark::DoNotOptimize(gather.irradiance(p.position, p.normal, room.quality.field.reflected));
     }
     state.SetItemsProcessed(state.iterations());
     state.counters["rays_a_point"] = double(room.rays.rays_traced() - before) / double(state.iterations());

@@ -96,7 +96,19 @@ inline double mean_irradiance(const Scene& scene, const Solution& solution, Node
             double e = 0.0;
             for (std::size_t k = 0; k < 3; ++k) {
                 p[k] = dvec3(world * dvec4(dvec3(mesh.positions[mesh.indices[t + k]]), 1.0));
-                e += luminance(layer->irradiance_front[mesh.indices[t + k]]) / 3.0;
+            }
+            // Light maps change within a triangle: the mean of a grid of points in it.
+            constexpr int kGrid = 12;
+            const std::array<std::uint32_t, 3> corner{mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2]};
+            for (int i = 0; i < kGrid; ++i) {
+                for (int j = 0; j < kGrid; ++j) {
+                    float u = (float(i) + 0.5F) / kGrid, v = (float(j) + 0.5F) / kGrid;
+                    if (u + v > 1.0F) {
+                        u = 1.0F - u;
+                        v = 1.0F - v;
+                    }
+                    e += luminance(irradiance_at(*layer, corner, {1.0F - u - v, u, v}, false)) / (kGrid * kGrid);
+                }
             }
             const double area = 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
             sum += e * area;

@@ -1,5 +1,6 @@
 // The meshes that are shown: conforming, valid, lit where light is, whole where something rests on them.
 #include "engine/layers/layer_builder.h"
+#include "engine/radiosity/point_gather.h"
 #include "engine/raycast/ray_scene.h"
 #include "tests/support/rooms.h"
 
@@ -260,8 +261,12 @@ TEST(Layers, VertexBudgetIsKept) {
     settings.smallest_edge = 0.01F;
     const auto build = [&](std::size_t most) {
         settings.max_vertices = most;
+        const LightField field{
+            [](const vec3&, const vec3&) { return DirectSample{}; },
+            [&](const vec3& p, const vec3& n) { return gather.irradiance(p, n, {}); },
+        };
         return build_layers(
-            rays, gather, settings, [](std::uint32_t) { return false; }, RunContext{}, 0.0, 1.0);
+            rays, field, {}, settings, [](std::uint32_t) { return false; }, RunContext{}, 0.0, 1.0);
     };
     const LayerSet few = build(500);
     const LayerSet many = build(5000);

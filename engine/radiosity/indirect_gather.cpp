@@ -1,0 +1,110 @@
+#include "engine/radiosity/indirect_gather.h"
+
+#include "engine/base/rng.h"
+
+#include <algorithm>
+
+namespace atrium {
+namespace {
+
+constexpr std::uint32_t kSeed = 0x51EDU;
+constexpr std::size_t kMostRays = 4096;
+constexpr int kMostPanes = 16;
+// Stratified directions err less than independent ones: measured against four times as many rays in furnished rooms, the
+// variance of 64 to 256 of them is 0.2 to 0.35 times that of chance.
+constexpr float kStratified = 0.35F;
+
+std::vector<vec3> cosine_directions() {
+    std::vector<vec3> out(kMostRays);
+    for (std::size_t i = 0; i < kMostRays; ++i) {
+        const vec2 u = sobol_owen2(std::uint32_t(i), 0, kSeed);
+        // Concentric map (Shirley & Chiu 1997): strata stay compact.
+        const vec2 v = 2.0F * u - vec2(1.0F);
+        float r = 0.0F;
+        float angle = 0.0F;
+        if (std::abs(v.x) > std::abs(v.y)) {
+            r = v.x;
+            angle = 0.25F * kPi * (v.y / v.x);
+        } else if (v.y != 0.0F) {
+            r = v.y;
+            angle = 0.5F * kPi - 0.25F * kPi * (v.x / v.y);
+        }
+        out[i] = vec3(r * std::cos(angle), r * std::sin(angle), std::sqrt(std::max(1.0F - r * r, 0.0F)));
+    }
+    return out;
+}
+
+Hierarchy tree_of(const Hierarchy& solved, const LeafFlags& bright) {
+    const bool any = std::any_of(bright.begin(), bright.end(), [](std::uint8_t f) { return f != 0; });
+    return any ? only_flagged(solved, bright, false) : Hierarchy{};
+}
+
+} // namespace
+
+IndirectGather::IndirectGather(const Hierarchy& solved, const RayScene& rays, LeafFlags bright)
+    : h_(solved), rays_(rays), bright_(std::move(bright)), bright_tree_(tree_of(solved, bright_)), no_lights_(Scene{}, rays),
+      bright_gather_(bright_tree_, rays, no_lights_), offset_(std::clamp(1e-5F * rays.bounds().diagonal(), 1e-6F, 1e-3F)),
+      directions_(cosine_directions()) {}
+
+// Radiosity that arrives along a ray, glass in between included.
+Rgb IndirectGather::along(vec3 origin, const vec3& direction) const {
+    Rgb sum(0.0F);
+    Rgb through(1.0F);
+    for (int crossing = 0; crossing < kMostPanes; ++crossing) {
+        const Hit hit = rays_.nearest({origin, direction});
+        if (!hit) {
+            break;
+        }
+        const std::uint32_t leaf = h_.leaf_at(hit.surface, hit.triangle, !hit.front, hit.barycentric);
+        if (leaf != Element::kNone && bright_[leaf] == 0) {
+            sum += through * h_.elements[leaf].radiosity;
+        }
+        through *= rays_.let_through(hit, direction);
+        if (!(max_component(through) > 1e-3F)) {
+            break;
+        }
+        origin += direction * (hit.t + std::max(1e-5F, 1e-6F * hit.t));
+    }
+    return sum;
+}
+
+DirectSample IndirectGather::irradiance(const vec3& point, const vec3& normal, const IndirectSettings& settings) const {
+    DirectSample out;
+    if (h_.empty()) {
+        return out;
+    }
+    if (!bright_tree_.empty()) {
+        out = bright_gather_.irradiance(point, normal, settings.bright);
+    }
+    vec3 t;
+    vec3 b;
+    make_frame(normal, t, b);
+    const vec3 origin = point + normal * offset_;
+    Rgb sum(0.0F);
+    double light = 0.0;
+    double light2 = 0.0;
+    unsigned done = 0;
+    unsigned wanted = std::min<unsigned>(settings.rays, kMostRays);
+    for (;;) {
+        for (; done < wanted; ++done) {
+            const vec3& d = directions_[done];
+            const Rgb radiosity = along(origin, t * d.x + b * d.y + normal * d.z);
+            sum += radiosity;
+            const double l = luminance(radiosity);
+            light += l;
+            light2 += l * l;
+        }
+        const double n = done;
+        const double mean = light / n;
+        const double variance = kStratified * std::max(light2 / n - mean * mean, 0.0) / n;
+        const double level = settings.tolerance * (mean + luminance(out.irradiance));
+        if (done * 2 > std::min<std::size_t>(settings.max_rays, kMostRays) || variance <= level * level) {
+            out.irradiance += sum / float(done);
+            out.variance += float(variance);
+            return out;
+        }
+        wanted = 2 * done;
+    }
+}
+
+} // namespace atrium

@@ -1,0 +1,45 @@
+// Reflected light at a point: rays over the hemisphere read the solved radiosity where they land, spots that stand out are
+// gathered by name.
+#pragma once
+
+#include "engine/radiosity/light_split.h"
+#include "engine/radiosity/point_gather.h"
+
+#include <vector>
+
+namespace atrium {
+
+/// How closely the hemisphere is looked at.
+struct IndirectSettings {
+    unsigned rays = 64;      ///< over the hemisphere, a power of two: the same directions at every point of a wall
+    unsigned max_rays = 256; ///< where the light comes unevenly
+    float tolerance = 0.02F; ///< relative standard error that asks for no more rays
+    GatherSettings bright;   ///< for the spots that stand out
+};
+
+/// Needs the hierarchy as it is after a solution, unchanged as long as this lives. Safe from any thread.
+class IndirectGather {
+public:
+    /// `bright` flags leaves that are gathered by name and left out of the hemisphere (bright_leaves()).
+    IndirectGather(const Hierarchy& solved, const RayScene& rays, LeafFlags bright);
+    IndirectGather(const IndirectGather&) = delete;
+    IndirectGather& operator=(const IndirectGather&) = delete;
+
+    /// Irradiance from the radiosity of all surfaces (named emitters' own light is not part of it), in lux, with the
+    /// variance of its samples. Nearby points err alike, so what is shown is smooth.
+    [[nodiscard]] DirectSample irradiance(const vec3& point, const vec3& normal, const IndirectSettings& settings) const;
+
+private:
+    [[nodiscard]] Rgb along(vec3 origin, const vec3& direction) const;
+
+    const Hierarchy& h_;
+    const RayScene& rays_;
+    LeafFlags bright_;
+    Hierarchy bright_tree_; ///< empty when nothing stands out
+    DirectLight no_lights_;
+    PointGather bright_gather_;
+    float offset_ = 1e-4F;         ///< of ray origins from their surface, metres
+    std::vector<vec3> directions_; ///< cosine-weighted, +z up
+};
+
+} // namespace atrium
