@@ -277,7 +277,7 @@ private:
 
     // A difference that the samples' own noise explains is no reason to look closer: it would be noise again.
     [[nodiscard]] float relative(float difference, float variance, float light) const {
-        return difference > 1.5F * std::sqrt(variance) ? difference / std::max(light, settings_.light_floor) : 0.0F;
+        return difference > 2.0F * std::sqrt(variance) ? difference / std::max(light, settings_.light_floor) : 0.0F;
     }
 
     // Error of linear interpolation from a to b, judged by the nodes before and behind them: half the lesser of the two
