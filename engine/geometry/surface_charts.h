@@ -16,6 +16,7 @@ namespace atrium {
 struct ChartSettings {
     float tile_edge = 0.32F;       ///< edge of a square tile; every chart's rectangle is a whole number of tiles
     float smallest_extent = 0.16F; ///< pieces whose longer side is below this stay uncharted (light on vertices)
+    float smallest_width = 0.01F;  ///< pieces narrower than this on average (area over longer side) stay uncharted too
     float flatness = 1e-3F;        ///< triangles within this of a plane (and within about 1 degree) may share a chart
 };
 
@@ -34,7 +35,9 @@ struct Chart {
     float area = 0.0F; ///< of its triangles, square metres
 };
 
-/// All charts of one surface. Triangles keep their order; a triangle belongs to at most one chart.
+/// All charts of one surface. Triangles keep their order; a triangle belongs to at most one chart. Coordinates of its
+/// corners stay a little inside the chart's rectangle (a few roundings), so that no interpolated point falls on another
+/// chart's tile.
 struct SurfaceCharts {
     static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
     float tile_edge = 0.0F;
@@ -48,10 +51,18 @@ struct SurfaceCharts {
 };
 
 /// Charts of a surface given as triangles in engine coordinates, counter-clockwise from the front. Edge-connected triangles
-/// of one plane become one planar chart, whatever their number; `domain` (empty, or one per position) are a curved
-/// primitive's own [0,1]^2 coordinates, which make one curved chart of all triangles (metres from its largest extents).
-/// Deterministic; O(n log n).
+/// of one plane become one planar chart, whatever their number; so do pieces of one plane whose rectangles touch or overlap
+/// (see planar_regions()). `domain` (empty, or one per position; see curved_domain()) are a curved primitive's own [0,1]^2
+/// coordinates, which make one curved chart of all triangles that have them (metres from its largest extents); negative
+/// coordinates mark the flat ends, which become planar charts. Rectangles are packed into a roughly square space of at most
+/// 65535 tiles: a surface that needs more gets larger tiles (twice, four times ...), one of very many pieces loses the
+/// smallest. Deterministic; O(n log n).
 SurfaceCharts build_charts(std::span<const vec3> positions, std::span<const uvec3> triangles, std::span<const vec2> domain,
                            const ChartSettings& settings);
+
+/// Domain coordinates for build_charts() of a tessellated primitive, one per vertex of `mesh`: those of the rolled-out side
+/// of a sphere, cylinder or cone (u around, v along the axis; no triangle goes over the seam), (-1, -1) on flat ends. Empty
+/// for every other primitive. `mesh` is what tessellate() made of `geometry`.
+std::vector<vec2> curved_domain(const Geometry& geometry, const MeshData& mesh);
 
 } // namespace atrium

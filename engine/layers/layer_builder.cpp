@@ -1,6 +1,7 @@
 #include "engine/layers/layer_builder.h"
 
 #include "engine/base/parallel.h"
+#include "engine/layers/covered_points.h"
 #include "engine/layers/light_smoothing.h"
 #include "engine/layers/node_mesh.h"
 
@@ -193,13 +194,14 @@ private:
     }
 
     void sample_side(const LightVertex& v, const vec3& n, DirectSample& reflected, DirectSample& direct,
-                     bool& is_covered) const {
+                     bool& hidden) const {
         const vec3 p = sample_position(v, n);
         reflected = field_.reflected(p, n);
         if (!v.charted()) {
             direct = field_.direct(p, n);
         }
-        is_covered = luminance(reflected.irradiance + direct.irradiance) < settings_.light_floor && covered(p, n);
+        hidden = luminance(reflected.irradiance + direct.irradiance) < settings_.light_floor &&
+                 is_covered(rays_, p, n, 2.0F * settings_.smallest_edge);
     }
 
     /// Light of a side that vertices interpolate: what decides where more of them are needed.
@@ -208,29 +210,6 @@ private:
     }
     static DirectSample front(const LightVertex& v) { return shown(v.front, v.front_direct); }
     static DirectSample back(const LightVertex& v) { return shown(v.back, v.back_direct); }
-
-    // True where no light can reach because something rests on the surface or encloses the point: every way out of the
-    // half space is shut within a few centimetres, or ends on the unlit inside of a solid. (The underside of a box that
-    // stands on the floor lies in the floor's own plane, where no ray can tell them apart.)
-    [[nodiscard]] bool covered(const vec3& p, const vec3& n) const {
-        const float reach = 2.0F * settings_.smallest_edge;
-        vec3 t;
-        vec3 b;
-        make_frame(n, t, b);
-        for (int i = 0; i < 9; ++i) {
-            const float angle = 2.0F * kPi * float(i) / 8.0F;
-            const vec3 d = i == 8 ? n : glm::normalize(0.35F * n + std::cos(angle) * t + std::sin(angle) * b);
-            if (rays_.occluded(p, p + d * reach)) {
-                continue;
-            }
-            const Hit hit = rays_.nearest({p + n * (0.01F * reach), d});
-            if (!hit || hit.front || rays_.surfaces()[hit.surface].back_side ||
-                rays_.material(hit.surface).transmission > 0.0F) {
-                return false;
-            }
-        }
-        return true;
-    }
 
     static float deviation(const DirectSample& a, const DirectSample& m, const DirectSample& b, float floor) {
         const float la = luminance(a.irradiance), lm = luminance(m.irradiance), lb = luminance(b.irradiance);

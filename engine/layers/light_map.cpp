@@ -42,4 +42,47 @@ Rgb LightMap::irradiance(const vec2& uv) const {
     return (row[0] * (1.0F - fx) + row[1] * fx) * (1.0F - fy) + (next[0] * (1.0F - fx) + next[1] * fx) * fy;
 }
 
+namespace {
+
+// Integral of the hat function around sample i (unit spacing) over [a, b].
+float hat_integral(int i, float a, float b) {
+    const float x0 = std::max(a - float(i), -1.0F), x1 = std::min(b - float(i), 1.0F);
+    const auto from_left = [](float x) { return x < 0.0F ? 0.5F * (1.0F + x) * (1.0F + x) : 0.5F + x - 0.5F * x * x; };
+    return x1 > x0 ? from_left(x1) - from_left(x0) : 0.0F;
+}
+
+} // namespace
+
+Rgb LightMap::mean(const vec2& lo, const vec2& hi) const {
+    if (!(hi.x > lo.x) || !(hi.y > lo.y)) {
+        return irradiance(lo);
+    }
+    const auto inside = [](float x, std::uint32_t count) { return std::clamp(int(std::floor(x)), 0, int(count) - 1); };
+    dvec3 sum(0.0);
+    double area = 0.0;
+    for (int v = inside(lo.y, height); v <= inside(hi.y, height) && !tiles.empty(); ++v) {
+        for (int u = inside(lo.x, width); u <= inside(hi.x, width); ++u) {
+            const Tile& tile = tiles[std::size_t(v) * width + std::size_t(u)];
+            const float n = float(1 << tile.level);
+            const vec2 a = glm::clamp(lo - vec2(float(u), float(v)), vec2(0.0F), vec2(1.0F)) * n;
+            const vec2 b = glm::clamp(hi - vec2(float(u), float(v)), vec2(0.0F), vec2(1.0F)) * n;
+            if (tile.used == 0 || !(b.x > a.x) || !(b.y > a.y)) {
+                continue;
+            }
+            dvec3 part(0.0);
+            for (int j = int(a.y); j <= int(std::ceil(b.y)); ++j) {
+                const Rgb* row = &image[(std::size_t(tile.y) + std::size_t(j)) * image_width + tile.x];
+                dvec3 along(0.0);
+                for (int i = int(a.x); i <= int(std::ceil(b.x)); ++i) {
+                    along += dvec3(row[i]) * double(hat_integral(i, a.x, b.x));
+                }
+                part += along * double(hat_integral(j, a.y, b.y));
+            }
+            sum += part / (double(n) * n);
+            area += double(b.x - a.x) * double(b.y - a.y) / (double(n) * n);
+        }
+    }
+    return area > 0.0 ? Rgb(sum / area) : Rgb(0.0F);
+}
+
 } // namespace atrium

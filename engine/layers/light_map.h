@@ -30,6 +30,9 @@ struct LightMap {
     /// Irradiance at chart-space coordinates, lux; outside the map or on an unused tile: the nearest used tile among the
     /// eight around, else 0.
     [[nodiscard]] Rgb irradiance(const vec2& uv) const;
+    /// Mean irradiance over the rectangle between two chart-space positions (lo <= hi): the exact integral of what
+    /// irradiance() interpolates. Unused tiles do not count; 0 where no other is met. Without area: irradiance(lo).
+    [[nodiscard]] Rgb mean(const vec2& lo, const vec2& hi) const;
     [[nodiscard]] std::size_t memory_bytes() const { return tiles.size() * sizeof(Tile) + image.size() * sizeof(Rgb); }
     friend bool operator==(const LightMap&, const LightMap&) = default;
 };

@@ -2,6 +2,7 @@
 
 #include "engine/base/checks.h"
 #include "engine/geometry/mesh_topology.h"
+#include "engine/geometry/surface_charts.h"
 #include "engine/geometry/tessellate.h"
 #include "engine/scene/texture_sampling.h"
 
@@ -97,11 +98,11 @@ struct RayScene::Impl {
             if (!mesh) {
                 mesh = tessellate(shape->geometry);
             }
-            add_node(id, node, mesh, closed);
+            add_node(id, node, *shape, mesh, closed);
         }
     }
 
-    void add_node(NodeId id, const Node& node, const std::shared_ptr<const MeshData>& mesh,
+    void add_node(NodeId id, const Node& node, const Shape& shape, const std::shared_ptr<const MeshData>& mesh,
                   std::map<const MeshData*, bool>& closed) {
         dmat4 to_engine = scene.world_matrix(id);
         to_engine[3] -= dvec4(origin, 0.0);
@@ -110,6 +111,10 @@ struct RayScene::Impl {
         for (std::size_t i = 0; i < positions->size(); ++i) {
             (*positions)[i] = vec3(dvec3(to_engine * dvec4(dvec3(mesh->positions[i]), 1.0)));
         }
+        std::shared_ptr<const std::vector<vec2>> domain;
+        if (std::vector<vec2> coordinates = curved_domain(shape.geometry, *mesh); !coordinates.empty()) {
+            domain = std::make_shared<const std::vector<vec2>>(std::move(coordinates));
+        }
         for (std::size_t part = 0; part < mesh->parts.size(); ++part) {
             RaySurface surface;
             surface.node = id;
@@ -117,6 +122,7 @@ struct RayScene::Impl {
             surface.material = part < node.materials.size() ? node.materials[part] : MaterialId{};
             surface.mesh = mesh;
             surface.positions = positions;
+            surface.domain = domain;
             surface.to_engine = to_engine;
             surface.mirrored = determinant < 0.0;
             surface.normal_matrix = determinant != 0.0 ? glm::transpose(glm::inverse(dmat3(to_engine))) : dmat3(1.0);

@@ -18,6 +18,7 @@ struct RaySurface {
     MaterialId material;                                ///< none = default material
     std::shared_ptr<const MeshData> mesh;               ///< local coordinates
     std::shared_ptr<const std::vector<vec3>> positions; ///< mesh->positions in engine coordinates, shared by parts
+    std::shared_ptr<const std::vector<vec2>> domain;    ///< curved primitives: see curved_domain(); else null
     std::vector<uvec3> triangles; ///< vertex indices, counter-clockwise from the front; degenerate ones are left out
     bool pane = false;      ///< a sheet of thin glass large enough to be a window: the sky is looked for through it by name
     bool back_side = false; ///< the back reflects: double-sided material on a mesh that bounds no solid

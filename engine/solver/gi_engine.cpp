@@ -10,6 +10,7 @@
 #include "engine/radiosity/point_gather.h"
 #include "engine/radiosity/transport.h"
 #include "engine/raycast/ray_scene.h"
+#include "engine/raycast/scene_charts.h"
 #include "engine/solver/quality.h"
 
 #include <algorithm>
@@ -56,6 +57,8 @@ private:
 struct GiEngine::Impl {
     std::unique_ptr<RayScene> rays;
     std::unique_ptr<DirectLight> punctual; ///< sun, sky, point and spot lights
+    std::vector<SurfaceCharts> charts;
+    DirectMaps maps; ///< direct light on charted surfaces
     Hierarchy hierarchy;
     Hierarchy emitters;                  ///< the tree in which only named emitters shine; empty when there are none
     std::unique_ptr<PointGather> direct; ///< named emitters and `punctual` together
@@ -124,9 +127,37 @@ struct GiEngine::Impl {
         }
     }
 
+    // Direct light of a leaf from the light map of its chart; false where it has none.
+    bool light_from_map(Element& e, double& spread) const {
+        if (e.kind != Element::Kind::Patch || charts[e.surface].empty() ||
+            charts[e.surface].chart_of_triangle[e.triangle] == SurfaceCharts::kNone) {
+            return false;
+        }
+        const auto& map = e.back ? maps.back[e.surface] : maps.front[e.surface];
+        constexpr int kSamples = 32;
+        Rgb sum(0.0F);
+        double sum2 = 0.0;
+        for (std::uint32_t i = 0; map && i < kSamples; ++i) {
+            vec2 u = sobol_owen2(i, 0, std::uint32_t(e.path));
+            u = u.x + u.y > 1.0F ? vec2(1.0F) - u : u;
+            const auto& c = e.barycentric;
+            const vec2 at = c[0] + (c[1] - c[0]) * u.x + (c[2] - c[0]) * u.y;
+            const Rgb light = map->irradiance(chart_uv(charts[e.surface], e.triangle, at));
+            sum += light;
+            sum2 += double(luminance(light)) * luminance(light);
+        }
+        e.direct = sum / float(kSamples);
+        const double mean = luminance(e.direct);
+        spread = std::sqrt(std::max(sum2 / kSamples - mean * mean, 0.0));
+        return true;
+    }
+
     // Mean direct irradiance of a leaf; returns the standard deviation of its samples.
     float light_leaf(std::uint32_t index, const QualitySettings& quality) {
         Element& e = hierarchy.elements[index];
+        if (double spread = 0.0; light_from_map(e, spread)) {
+            return float(spread);
+        }
         const unsigned n = e.kind == Element::Kind::Patch ? quality.leaf_samples * 2 : quality.leaf_samples;
         Rgb sum(0.0F);
         double sum2 = 0.0;
@@ -270,6 +301,31 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     s.hierarchy = build_hierarchy(*s.rays, hierarchy_settings);
     statistics.time.build = seconds_since(start);
     s.name_emitters(quality.emitter_contrast);
+
+    float light_floor = 1e-3F; // lux, until the mean is known
+    timer.next("charts");
+    s.charts = chart_surfaces(*s.rays, quality.charts);
+    // Double-sided surfaces may be lit from behind: the maps of sides on which nothing falls cost nothing.
+    const auto direct_maps = [&](const DirectMapSettings& wanted, const FieldSettings& field, double from, double to) {
+        timer.next("direct");
+        DirectMapSettings settings = wanted;
+        settings.light_floor = light_floor;
+        s.maps = DirectMaps{};
+        s.maps.front.resize(s.charts.size());
+        s.maps.back.resize(s.charts.size());
+        if (s.nothing_direct()) {
+            s.maps.complete = true;
+            return true;
+        }
+        s.maps = build_direct_maps(
+            *s.rays, s.charts, [&](const vec3& p, const vec3& n) { return s.direct_light(p, n, field.direct); },
+            [&](std::uint32_t surface) { return s.rays->surfaces()[surface].back_side; }, settings, context, from, to);
+        return s.maps.complete;
+    };
+    if (!direct_maps(quality.first_maps, quality.first_field, 0.03, 0.06)) {
+        return stopped();
+    }
+    timer.next("hierarchy");
     s.light_leaves(quality, context);
     for (Element& e : s.hierarchy.elements) {
         e.radiosity = e.leaf() ? e.emitted + e.rho * e.direct : Rgb(0.0F);
@@ -279,14 +335,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         return stopped();
     }
 
-    const auto layers = [&](const LayerSettings& wanted, const FieldSettings& field, double from, double to) {
-        timer.next("layers");
-        s.reflected =
-            std::make_unique<IndirectGather>(s.hierarchy, *s.rays, bright_leaves(s.hierarchy, {}, quality.bright_contrast));
-        const LightField light_field{
-            [&](const vec3& p, const vec3& n) { return s.reflected->irradiance(p, n, field.reflected); },
-            [&](const vec3& p, const vec3& n) { return s.direct_light(p, n, field.direct); }};
-        LayerSettings settings = wanted;
+    const auto find_floor = [&] { // what counts as dark: a twentieth of the mean irradiance
         double light = 0.0;
         double area = 0.0;
         for (const Element& e : s.hierarchy.elements) {
@@ -295,10 +344,22 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
                 area += e.area;
             }
         }
-        settings.light_floor = area > 0.0 ? float(0.05 * light / area) : 1.0F;
+        light_floor = area > 0.0 ? float(0.05 * light / area) : 1.0F;
+    };
+    find_floor();
+    const auto layers = [&](const LayerSettings& wanted, const FieldSettings& field, double from, double to) {
+        timer.next("layers");
+        s.reflected =
+            std::make_unique<IndirectGather>(s.hierarchy, *s.rays, bright_leaves(s.hierarchy, {}, quality.bright_contrast));
+        const LightField light_field{
+            [&](const vec3& p, const vec3& n) { return s.reflected->irradiance(p, n, field.reflected); },
+            [&](const vec3& p, const vec3& n) { return s.direct_light(p, n, field.direct); }};
+        LayerSettings settings = wanted;
+        settings.light_floor = light_floor;
         const std::vector<std::uint8_t> lit = s.back_lit_surfaces();
         return build_layers(
-            *s.rays, light_field, {}, settings, [&](std::uint32_t surface) { return lit[surface] != 0; }, context, from, to);
+            *s.rays, light_field, {s.charts, s.maps.front, s.maps.back}, settings,
+            [&](std::uint32_t surface) { return lit[surface] != 0; }, context, from, to);
     };
 
     LinkSet links(s.hierarchy);
@@ -336,6 +397,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
             std::uint64_t(std::count_if(s.hierarchy.elements.begin(), s.hierarchy.elements.end(),
                                         [](const Element& e) { return e.kind == Element::Kind::Cluster; }));
         s.energy_balance(transport, statistics);
+        find_floor();
         if (context.should_stop()) {
             return stopped();
         }
@@ -350,8 +412,11 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         }
     }
     s.solved = true;
-    context.progress("layers", 0.4);
-    LayerSet set = layers(quality.layers, quality.field, 0.4, 1.0);
+    if (!direct_maps(quality.maps, quality.field, 0.4, 0.6)) {
+        return stopped();
+    }
+    context.progress("layers", 0.6);
+    LayerSet set = layers(quality.layers, quality.field, 0.6, 1.0);
     timer.stop();
     if (!set.complete) {
         return stopped();

@@ -30,11 +30,17 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         f.reflected.bright = {2.0F * tolerance, cut, rays / 2, 0, 0};
         return f;
     };
+    out.charts.tile_edge = 0.32F * unit;
+    out.charts.smallest_extent = 0.16F * unit;
+    out.charts.flatness = 1e-3F * unit;
     double usual_error = 0.05;
     switch (quality) {
     case SolverSettings::Quality::Draft:
         set(0.5F, 0.2F, 2e-3F, 4, 1.0F, 0.12F, 0.15F);
         out.field = look(0.05F, 96, 24, 4, 36, 32);
+        out.maps.first_level = 1;
+        out.maps.max_level = 4;
+        out.maps.contrast = 0.06F;
         out.refine_rounds = 1;
         out.solver_tolerance = 1e-3;
         usual_error = 0.10;
@@ -46,6 +52,9 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     case SolverSettings::Quality::Fine:
         set(0.15F, 0.08F, 1e-4F, 16, 0.25F, 0.015F, 0.03F);
         out.field = look(0.008F, 400, 192, 32, 256, 256);
+        out.maps.first_level = 3;
+        out.maps.max_level = 7;
+        out.maps.contrast = 0.015F;
         out.refine_rounds = 3;
         out.solver_tolerance = 1e-5;
         usual_error = 0.02;
@@ -67,6 +76,11 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     }
     out.first_field = look(0.05F, 96, 16, 4, 24, 16);
     out.leaf_field = look(0.05F, 96, 8, 1, std::max(out.field.direct.sky_rays / 8, 16U), 16);
+    out.maps.cover_reach = 0.05F * unit;
+    out.first_maps = out.maps;
+    out.first_maps.first_level = 1;
+    out.first_maps.max_level = 3;
+    out.first_maps.contrast = 0.1F;
     out.first_layers = out.layers;
     out.first_layers.base_edge = 2.0F * out.layers.base_edge;
     out.first_layers.max_vertices = 20'000;

@@ -1,6 +1,8 @@
 // What "draft", "normal" and "fine" mean: every number of the solver that depends on the wish for quality, in one place.
 #pragma once
 
+#include "engine/geometry/surface_charts.h"
+#include "engine/layers/direct_map_builder.h"
 #include "engine/layers/layer_builder.h"
 #include "engine/radiosity/indirect_gather.h"
 #include "engine/radiosity/links.h"
@@ -19,6 +21,9 @@ struct QualitySettings {
     RefineSettings refine;
     LayerSettings first_layers; ///< of the first picture
     LayerSettings layers;
+    ChartSettings charts;
+    DirectMapSettings first_maps;
+    DirectMapSettings maps;
     FieldSettings first_field;
     FieldSettings field;
     FieldSettings leaf_field;       ///< of the means on leaves

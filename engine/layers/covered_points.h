@@ -1,0 +1,13 @@
+// Places of a surface that something else rests on.
+#pragma once
+
+#include "engine/raycast/ray_scene.h"
+
+namespace atrium {
+
+/// True where no light can reach a point of a surface because something rests on the surface or encloses the point: every
+/// way out of the half space about `normal` is shut within `reach` metres, or ends on the unlit inside of a solid. (The
+/// underside of a box that stands on the floor lies in the floor's own plane, where no ray can tell them apart.) Any thread.
+bool is_covered(const RayScene& rays, const vec3& point, const vec3& normal, float reach);
+
+} // namespace atrium

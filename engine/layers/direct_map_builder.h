@@ -1,0 +1,52 @@
+// Direct light at texel resolution: light maps that are fine along the edges of shadows and coarse elsewhere.
+#pragma once
+
+#include "engine/base/run_context.h"
+#include "engine/geometry/surface_charts.h"
+#include "engine/layers/light_map.h"
+#include "engine/radiosity/direct_light.h"
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace atrium {
+
+/// Irradiance at a point of a surface, visibility included; engine coordinates, unit normal. Called from many threads at
+/// once and must give the same for the same point whenever it is asked.
+using DirectFunction = std::function<DirectSample(const vec3& point, const vec3& normal)>;
+
+/// How fine and how exact. Levels are for tiles of 0.32 m: at level k samples are 0.32 m / 2^k apart.
+struct DirectMapSettings {
+    unsigned first_level = 2;  ///< everywhere at least: 8 cm (draft 1, fine 3)
+    unsigned max_level = 6;    ///< along sharp edges: 5 mm (draft 4, fine 7); 12 at most
+    float contrast = 0.03F;    ///< error of the interpolation, relative to the light there, that asks for finer texels
+    float light_floor = 1.0F;  ///< lux: errors are judged against at least this irradiance
+    float cover_reach = 0.05F; ///< metres within which all ways out must be shut where something rests on a surface
+    std::size_t max_samples = 16'000'000; ///< texels of all maps together at most (12 bytes each)
+};
+
+/// What build_direct_maps() makes.
+struct DirectMaps {
+    /// One per surface of the ray scene: null where nothing is charted, the side is not lit, or no light falls on it.
+    std::vector<std::shared_ptr<const LightMap>> front;
+    std::vector<std::shared_ptr<const LightMap>> back;
+    double error_estimate = 0.0;   ///< area-weighted RMS of the samples' relative standard errors
+    std::size_t samples = 0;       ///< texels in all maps
+    std::size_t evaluations = 0;   ///< calls of the direct function
+    std::size_t limited_tiles = 0; ///< tiles coarser than their light asks for because max_samples was reached
+    bool complete = false;         ///< false when the context asked to stop: then there are no maps
+    [[nodiscard]] std::size_t memory_bytes() const;
+};
+
+/// Builds the light maps of all charted surfaces; `charts` has one entry per surface of `rays`. Samples start on a coarse
+/// grid with one more at a scattered place in each cell, so that narrow streaks of light are met somewhere; cells where the
+/// light differs from what its neighbours say are divided, and so are those that an edge runs into. Everything else is
+/// interpolated, so the cost follows the length of the edges. `back_lit(surface)` tells whether the back side can receive
+/// light at all. Same result for any number of threads; stops within a few milliseconds when asked. Engine thread.
+DirectMaps build_direct_maps(const RayScene& rays, std::span<const SurfaceCharts> charts, const DirectFunction& direct,
+                             const std::function<bool(std::uint32_t surface)>& back_lit, const DirectMapSettings& settings,
+                             const RunContext& context, double progress_from, double progress_to);
+
+} // namespace atrium

@@ -1,0 +1,30 @@
+// From the cells that were looked at to the light maps that are kept.
+#pragma once
+
+#include "engine/base/run_context.h"
+#include "engine/layers/light_cells.h"
+#include "engine/layers/light_map.h"
+
+#include <span>
+
+namespace atrium {
+
+/// Place of a sheet's rectangle in its surface's chart space, tiles.
+struct SheetPlace {
+    std::uint32_t sheet = 0;
+    std::uint32_t tile_u = 0;
+    std::uint32_t tile_v = 0;
+    std::uint32_t tiles_u = 0;
+    std::uint32_t tiles_v = 0;
+};
+
+/// Gives nodes that are covered, and then those away from the surface, the mean of their neighbours, outwards from known
+/// ones. Nodes that no known one is connected with stay as they are: wholly enclosed, dark, seen by nobody.
+void fill_unknown_nodes(LightCells& cells, std::span<const SheetPlace> sheets);
+
+/// The light map of one side of a surface from the sheets of its charts; chart space of width * height tiles. Tiles of
+/// different level that meet agree along their common edge. `context` may stop it: the map is then not to be used.
+LightMap assemble_light_map(const LightCells& cells, std::span<const SheetPlace> sheets, std::uint32_t width,
+                            std::uint32_t height, const RunContext& context);
+
+} // namespace atrium

@@ -1,0 +1,19 @@
+#include "engine/raycast/scene_charts.h"
+
+#include "engine/base/parallel.h"
+
+namespace atrium {
+
+std::vector<SurfaceCharts> chart_surfaces(const RayScene& rays, const ChartSettings& settings) {
+    const std::vector<RaySurface>& surfaces = rays.surfaces();
+    std::vector<SurfaceCharts> out(surfaces.size());
+    parallel_chunks(surfaces.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const RaySurface& s = surfaces[i];
+            out[i] = build_charts(*s.positions, s.triangles, s.domain ? *s.domain : std::vector<vec2>{}, settings);
+        }
+    });
+    return out;
+}
+
+} // namespace atrium
