@@ -19,7 +19,7 @@ using State = LightNode::State;
 // coordinates and the offset of rays, below what an eye sees of a shadow.
 constexpr float kPullIn = 0.002F;
 // Metres: cells that a covered place and an open one share are divided down to this, since a shadow may begin between them.
-constexpr float kCoverEdge = 0.02F;
+constexpr float kCoverEdge = 0.04F;
 constexpr std::size_t kGrain = 32;
 
 /// One side of a chart.
