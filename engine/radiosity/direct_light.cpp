@@ -57,6 +57,14 @@ DirectLight::DirectLight(const Scene& scene, const RayScene& rays) : rays_(rays)
 }
 
 DirectSample DirectLight::irradiance(const vec3& point, const vec3& normal, unsigned sun_rays, unsigned sky_rays) const {
+    DirectSample out = lamps_irradiance(point, normal, sun_rays);
+    const DirectSample sky = sky_irradiance(point, normal, sky_rays);
+    out.irradiance += sky.irradiance;
+    out.variance += sky.variance;
+    return out;
+}
+
+DirectSample DirectLight::lamps_irradiance(const vec3& point, const vec3& normal, unsigned sun_rays) const {
     DirectSample out;
     for (const PlacedLight& placed : lights_) {
         const Light& light = placed.light;
@@ -77,6 +85,11 @@ DirectSample DirectLight::irradiance(const vec3& point, const vec3& normal, unsi
         }
         out.irradiance += light.color * (candela * cosine / distance2) * rays_.transmittance(point, placed.position);
     }
+    return out;
+}
+
+DirectSample DirectLight::sky_irradiance(const vec3& point, const vec3& normal, unsigned sky_rays) const {
+    DirectSample out;
     if (sky_ && sky_rays > 0) {
         if (!panes_.empty()) {
             add_sky_through_panes(point, normal, sky_rays, out);

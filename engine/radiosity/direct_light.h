@@ -35,6 +35,10 @@ public:
     /// the glass, and past them with a third as many over the hemisphere (cosine weighted), where the gap between a ray that
     /// sees it and one that does not is halved twice. The pattern is the same at every point: no noise between neighbours.
     [[nodiscard]] DirectSample irradiance(const vec3& point, const vec3& normal, unsigned sun_rays, unsigned sky_rays) const;
+    /// The two parts of irradiance(): sun, point and spot lights, whose shadows have sharp edges and which cost a few rays;
+    /// and the sky, which is soft and costs many.
+    [[nodiscard]] DirectSample lamps_irradiance(const vec3& point, const vec3& normal, unsigned sun_rays) const;
+    [[nodiscard]] DirectSample sky_irradiance(const vec3& point, const vec3& normal, unsigned sky_rays) const;
     /// Flux of all point and spot lights, lumen.
     [[nodiscard]] double emitted_flux() const;
 
