@@ -200,6 +200,21 @@ float LightPart::bend(const LightCell& c, const LightGuess& a, const LightGuess&
     return relative(0.3F * least, 0.25F * (a.variance + b.variance), light);
 }
 
+// Where a covered node follows a known one, an edge that comes in beside them may run on under the cover, or may not: how
+// much the light changes on the way to the known one.
+float LightPart::change_at_cover(const LightCell& c, std::uint32_t known, std::uint32_t covered, float light) const {
+    const LightNode& k = cells_.nodes[known];
+    const LightNode& v = cells_.nodes[covered];
+    const LightGuess before =
+        cells_.guess(c.sheet, 2 * std::int64_t(k.x) - std::int64_t(v.x), 2 * std::int64_t(k.y) - std::int64_t(v.y));
+    if (v.state != State::Covered || !before.known) {
+        return 0.0F;
+    }
+    const float there = luminance(k.irradiance);
+    return relative(0.3F * std::abs(before.light - there), 0.1F * (before.variance + k.variance),
+                    std::max(light, before.light));
+}
+
 // How far interpolation in a cell is off, relative to the light; above settings_.contrast it is to be divided.
 float LightPart::error(const LightCell& c) const {
     const auto corner = cells_.corners(c);
@@ -229,6 +244,10 @@ float LightPart::error(const LightCell& c) const {
     for (std::size_t e = 0; e < 4; ++e) {
         const LightGuess& a = g[kEdges[e][0]];
         const LightGuess& b = g[kEdges[e][1]];
+        if (a.known != b.known) {
+            worst = std::max(
+                worst, change_at_cover(c, corner[kEdges[e][a.known ? 0 : 1]], corner[kEdges[e][a.known ? 1 : 0]], light));
+        }
         if (!a.known || !b.known) {
             continue;
         }
