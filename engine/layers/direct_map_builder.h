@@ -34,17 +34,24 @@ struct DirectMaps {
     std::vector<std::shared_ptr<const LightMap>> back;
     double error_estimate = 0.0;   ///< area-weighted RMS of the samples' relative standard errors
     std::size_t samples = 0;       ///< texels in all maps
-    std::size_t evaluations = 0;   ///< calls of the direct function
+    std::size_t evaluations = 0;   ///< calls of direct functions
     std::size_t limited_tiles = 0; ///< tiles coarser than their light asks for because max_samples was reached
     bool complete = false;         ///< false when the context asked to stop: then there are no maps
     [[nodiscard]] std::size_t memory_bytes() const;
 };
 
-/// Builds the light maps of all charted surfaces; `charts` has one entry per surface of `rays`. Samples start on a coarse
-/// grid with one more at a scattered place in each cell, so that narrow streaks of light are met somewhere; cells where the
-/// light differs from what its neighbours say are divided, and so are those that an edge runs into. Everything else is
-/// interpolated, so the cost follows the length of the edges. `back_lit(surface)` tells whether the back side can receive
-/// light at all. Same result for any number of threads; stops within a few milliseconds when asked. Engine thread.
+/// Builds the light maps of all charted surfaces from light in parts that add up; `charts` has one entry per surface of
+/// `rays`. Samples start on a coarse grid with one more at a scattered place in each cell, so that narrow streaks of light
+/// are met somewhere; cells where the light differs from what its neighbours say are divided, and so are those that an edge
+/// runs into. Everything else is interpolated, so the cost follows the length of the edges. Each part is looked for by
+/// itself: where one has a sharp edge, the others need not be asked again. Errors are judged against the light of the part
+/// and of those before it: the strongest and cheapest comes first. `back_lit(surface)` tells whether the back side can
+/// receive light at all. Same result for any number of threads; stops within a few milliseconds when asked. Engine thread.
+DirectMaps build_direct_maps(const RayScene& rays, std::span<const SurfaceCharts> charts,
+                             std::span<const DirectFunction> parts,
+                             const std::function<bool(std::uint32_t surface)>& back_lit, const DirectMapSettings& settings,
+                             const RunContext& context, double progress_from, double progress_to);
+/// The same for light in one part.
 DirectMaps build_direct_maps(const RayScene& rays, std::span<const SurfaceCharts> charts, const DirectFunction& direct,
                              const std::function<bool(std::uint32_t surface)>& back_lit, const DirectMapSettings& settings,
                              const RunContext& context, double progress_from, double progress_to);

@@ -93,14 +93,15 @@ Rgb& texel(LightMap& map, const LightMap::Tile& tile, std::uint32_t x, std::uint
     return map.image[(std::size_t(tile.y) + y) * map.image_width + tile.x + x];
 }
 
-// Every cell of the tile at the tile's own resolution. Fine cells come last: their nodes are better than what coarse ones
-// interpolate on a common edge.
+// Adds every cell of the tile at the tile's own resolution. Fine cells come last: their nodes are better than what coarse
+// ones interpolate on a common edge.
 void fill_tile(const LightCells& cells, const SheetPlace& s, std::uint32_t u, std::uint32_t v, LightMap& map,
                const LightMap::Tile& tile) {
     std::vector<LightCell> leaves;
     cells.leaves(s.sheet, u, v, leaves);
-    const std::uint32_t step = cells.steps(tile.level);
+    const std::uint32_t step = cells.steps(tile.level), edge = (1U << tile.level) + 1;
     const std::uint32_t x0 = u << cells.max_level(), y0 = v << cells.max_level();
+    std::vector<Rgb> part(std::size_t(edge) * edge);
     for (const LightCell& c : leaves) {
         const auto corner = cells.corners(c);
         const std::uint32_t n = cells.steps(c.level) / step;
@@ -108,17 +109,23 @@ void fill_tile(const LightCells& cells, const SheetPlace& s, std::uint32_t u, st
             const float fy = float(j) / float(n);
             const Rgb left = cells.nodes[corner[0]].irradiance * (1.0F - fy) + cells.nodes[corner[2]].irradiance * fy;
             const Rgb right = cells.nodes[corner[1]].irradiance * (1.0F - fy) + cells.nodes[corner[3]].irradiance * fy;
+            Rgb* row = &part[std::size_t((c.y - y0) / step + j) * edge + (c.x - x0) / step];
             for (std::uint32_t i = 0; i <= n; ++i) {
                 const float fx = float(i) / float(n);
-                texel(map, tile, (c.x - x0) / step + i, (c.y - y0) / step + j) = left * (1.0F - fx) + right * fx;
+                row[i] = left * (1.0F - fx) + right * fx;
             }
+        }
+    }
+    for (std::uint32_t y = 0; y < edge; ++y) {
+        for (std::uint32_t x = 0; x < edge; ++x) {
+            texel(map, tile, x, y) += part[std::size_t(y) * edge + x];
         }
     }
 }
 
-// Makes two tiles agree along their common edge: at the coarser one's samples the node there, or else the mean of what both
-// say; between them the straight line that the coarser one shows.
-void stitch(const LightCells& cells, const SheetPlace& s, LightMap& map, std::uint32_t u, std::uint32_t v, bool upwards) {
+// Makes two tiles agree along their common edge: at the coarser one's samples the mean of what both say (the same but where
+// one interpolates and the other has looked closer), between them the straight line that the coarser one shows.
+void stitch(const SheetPlace& s, LightMap& map, std::uint32_t u, std::uint32_t v, bool upwards) {
     const auto tile_at = [&](std::uint32_t i, std::uint32_t j) -> const LightMap::Tile& {
         return map.tiles[std::size_t(s.tile_v + j) * map.width + s.tile_u + i];
     };
@@ -130,14 +137,10 @@ void stitch(const LightCells& cells, const SheetPlace& s, LightMap& map, std::ui
     const std::uint32_t na = 1U << a.level, nb = 1U << b.level, n = std::min(na, nb);
     const auto of_a = [&](std::uint32_t i) -> Rgb& { return upwards ? texel(map, a, i, na) : texel(map, a, na, i); };
     const auto of_b = [&](std::uint32_t i) -> Rgb& { return upwards ? texel(map, b, i, 0) : texel(map, b, 0, i); };
-    const std::uint32_t tile = cells.steps_per_tile();
-    for (std::uint32_t i = 0; i <= n; ++i) {
-        const std::uint32_t along = i * (tile / n);
-        const std::uint32_t node = upwards ? cells.find(s.sheet, u * tile + along, (v + 1) * tile)
-                                           : cells.find(s.sheet, (u + 1) * tile, v * tile + along);
+    for (std::uint32_t i = 1; i < n; ++i) { // corners are nodes that all four tiles share
         Rgb& pa = of_a(i * (na / n));
         Rgb& pb = of_b(i * (nb / n));
-        pa = pb = node != LightCells::kNone ? cells.nodes[node].irradiance : 0.5F * (pa + pb);
+        pa = pb = 0.5F * (pa + pb);
     }
     const auto straighten = [&](auto&& of, std::uint32_t fine) {
         const std::uint32_t ratio = fine / n;
@@ -182,7 +185,7 @@ void fill_unknown_nodes(LightCells& cells, std::span<const SheetPlace> sheets) {
     flood(cells, std::move(away), State::Void);
 }
 
-LightMap assemble_light_map(const LightCells& cells, std::span<const SheetPlace> sheets, std::uint32_t width,
+LightMap assemble_light_map(std::span<LightCells* const> parts, std::span<const SheetPlace> sheets, std::uint32_t width,
                             std::uint32_t height, const RunContext& context) {
     LightMap map;
     map.width = width;
@@ -199,8 +202,14 @@ LightMap assemble_light_map(const LightCells& cells, std::span<const SheetPlace>
         const SheetPlace& s = sheets[i];
         for (std::uint32_t v = 0; v < s.tiles_v; ++v) {
             for (std::uint32_t u = 0; u < s.tiles_u; ++u) {
-                const std::uint32_t level = cells.tile_level(cells.tile_index(s.sheet, u, v));
-                if (level != LightCells::kNone) {
+                std::uint32_t level = 0;
+                bool any = false;
+                for (const LightCells* part : parts) {
+                    const std::uint32_t own = part->tile_level(part->tile_index(s.sheet, u, v));
+                    any = any || own != LightCells::kNone;
+                    level = own != LightCells::kNone ? std::max(level, own) : level;
+                }
+                if (any) {
                     const std::size_t tile = std::size_t(s.tile_v + v) * width + s.tile_u + u;
                     map.tiles[tile].level = std::uint16_t(level);
                     map.tiles[tile].used = 1;
@@ -214,16 +223,18 @@ LightMap assemble_light_map(const LightCells& cells, std::span<const SheetPlace>
     parallel_chunks(places.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
             const Place& p = places[i];
-            fill_tile(cells, sheets[p.sheet], p.u, p.v, map, map.tiles[p.tile]);
+            for (const LightCells* part : parts) {
+                fill_tile(*part, sheets[p.sheet], p.u, p.v, map, map.tiles[p.tile]);
+            }
         }
     });
     for (const Place& p : places) {
         const SheetPlace& s = sheets[p.sheet];
         if (p.u + 1 < s.tiles_u) {
-            stitch(cells, s, map, p.u, p.v, false);
+            stitch(s, map, p.u, p.v, false);
         }
         if (p.v + 1 < s.tiles_v) {
-            stitch(cells, s, map, p.u, p.v, true);
+            stitch(s, map, p.u, p.v, true);
         }
     }
     return map;

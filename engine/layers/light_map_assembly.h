@@ -22,9 +22,10 @@ struct SheetPlace {
 /// ones. Nodes that no known one is connected with stay as they are: wholly enclosed, dark, seen by nobody.
 void fill_unknown_nodes(LightCells& cells, std::span<const SheetPlace> sheets);
 
-/// The light map of one side of a surface from the sheets of its charts; chart space of width * height tiles. Tiles of
-/// different level that meet agree along their common edge. `context` may stop it: the map is then not to be used.
-LightMap assemble_light_map(const LightCells& cells, std::span<const SheetPlace> sheets, std::uint32_t width,
+/// The light map of one side of a surface from the sheets of its charts, the sum of `parts`, which have the same sheets;
+/// chart space of width * height tiles. Tiles that meet agree along their common edge, whatever their levels. `context` may
+/// stop it: the map is then not to be used.
+LightMap assemble_light_map(std::span<LightCells* const> parts, std::span<const SheetPlace> sheets, std::uint32_t width,
                             std::uint32_t height, const RunContext& context);
 
 } // namespace atrium

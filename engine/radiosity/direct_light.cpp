@@ -2,10 +2,26 @@
 
 #include "engine/base/rng.h"
 #include "engine/geometry/form_factor.h"
+#include "engine/radiosity/disc_pattern.h"
 
 #include <algorithm>
 
 namespace atrium {
+namespace {
+
+constexpr std::size_t kSunScouts = 8; // rays towards the sun that may stand for all where they agree
+constexpr unsigned kPanePoints = 64;  // points on each pane that are kept ready
+
+// Point k of the pattern on pane i: of a pattern of its own, in the plane of the triangle.
+vec3 make_pane_point(const std::array<vec3, 3>& pane, std::size_t i, unsigned k) {
+    vec2 u = sobol_owen2(k, 0, std::uint32_t(0x5B7U + i));
+    if (u.x + u.y > 1.0F) {
+        u = vec2(1.0F) - u;
+    }
+    return pane[0] + (pane[1] - pane[0]) * u.x + (pane[2] - pane[0]) * u.y;
+}
+
+} // namespace
 
 DirectLight::DirectLight(const Scene& scene, const RayScene& rays) : rays_(rays) {
     for (const NodeId id : scene.in_tree_order()) {
@@ -30,43 +46,30 @@ DirectLight::DirectLight(const Scene& scene, const RayScene& rays) : rays_(rays)
             }
         }
     }
+    pane_points_.reserve(panes_.size() * kPanePoints);
+    for (std::size_t i = 0; i < panes_.size(); ++i) {
+        const auto& p = panes_[i];
+        pane_normals_.push_back(glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0])));
+        for (unsigned k = 0; k < kPanePoints; ++k) {
+            pane_points_.push_back(make_pane_point(p, i, k));
+        }
+    }
 }
 
 DirectSample DirectLight::irradiance(const vec3& point, const vec3& normal, unsigned sun_rays, unsigned sky_rays) const {
+    DirectSample out = lamps_irradiance(point, normal, sun_rays);
+    const DirectSample sky = sky_irradiance(point, normal, sky_rays);
+    out.irradiance += sky.irradiance;
+    out.variance += sky.variance;
+    return out;
+}
+
+DirectSample DirectLight::lamps_irradiance(const vec3& point, const vec3& normal, unsigned sun_rays) const {
     DirectSample out;
     for (const PlacedLight& placed : lights_) {
         const Light& light = placed.light;
         if (light.kind == Light::Kind::Directional) {
-            const float radius = std::tan(float(radians_from_degrees(0.5 * light.angular_diameter_degrees)));
-            const unsigned n = radius > 0.0F ? std::max(sun_rays, 1U) : 1U;
-            vec3 t;
-            vec3 b;
-            make_frame(-placed.axis, t, b);
-            const Rgb full = light.color * light.intensity;
-            Rgb sum(0.0F);
-            float lit = 0.0F;
-            for (unsigned i = 0; i < n; ++i) {
-                vec3 to_sun = -placed.axis;
-                if (n > 1) {
-                    // Fermat spiral: even over the disc for any n.
-                    const float r = radius * std::sqrt((float(i) + 0.5F) / float(n));
-                    const float angle = 2.39996323F * float(i);
-                    to_sun = glm::normalize(to_sun + (r * std::cos(angle)) * t + (r * std::sin(angle)) * b);
-                }
-                const float cosine = glm::dot(normal, to_sun);
-                if (cosine > 0.0F) {
-                    const Rgb through = rays_.transmittance_to_infinity(point, to_sun);
-                    sum += through * cosine;
-                    lit += max_component(through) > 0.0F ? 1.0F : 0.0F;
-                }
-            }
-            const Rgb e = full * sum / float(n);
-            out.irradiance += e;
-            if (n > 1) {
-                const float share = (lit + 1.0F) * (float(n) - lit + 1.0F) / ((float(n) + 2.0F) * (float(n) + 2.0F));
-                const float whole = luminance(full) * std::max(glm::dot(normal, -placed.axis), 0.0F);
-                out.variance += lit == 0.0F || lit == float(n) ? 0.0F : whole * whole * share / float(n);
-            }
+            add_sun(placed, point, normal, sun_rays, out);
             continue;
         }
         const vec3 d = placed.position - point;
@@ -82,6 +85,11 @@ DirectSample DirectLight::irradiance(const vec3& point, const vec3& normal, unsi
         }
         out.irradiance += light.color * (candela * cosine / distance2) * rays_.transmittance(point, placed.position);
     }
+    return out;
+}
+
+DirectSample DirectLight::sky_irradiance(const vec3& point, const vec3& normal, unsigned sky_rays) const {
+    DirectSample out;
     if (sky_ && sky_rays > 0) {
         if (!panes_.empty()) {
             add_sky_through_panes(point, normal, sky_rays, out);
@@ -89,6 +97,53 @@ DirectSample DirectLight::irradiance(const vec3& point, const vec3& normal, unsi
         add_open_sky(point, normal, std::max(sky_rays / 3, 16U), out);
     }
     return out;
+}
+
+void DirectLight::add_sun(const PlacedLight& sun, const vec3& point, const vec3& normal, unsigned sun_rays,
+                          DirectSample& out) const {
+    const Rgb full = sun.light.color * sun.light.intensity;
+    const float radius = std::tan(float(radians_from_degrees(0.5 * sun.light.angular_diameter_degrees)));
+    const float cosine = -glm::dot(normal, sun.axis);
+    if (!(radius > 0.0F)) {
+        if (cosine > 0.0F) {
+            out.irradiance += full * cosine * rays_.transmittance_to_infinity(point, -sun.axis);
+        }
+        return;
+    }
+    if (cosine < -radius) {
+        return; // wholly below the horizon
+    }
+    const bool whole = cosine > 1.5F * radius; // the disc stands above the horizon
+    const std::vector<vec2>& disc = disc_pattern(std::max(sun_rays, 1U));
+    vec3 t;
+    vec3 b;
+    make_frame(-sun.axis, t, b);
+    Rgb sum(0.0F), least(1.0F), most(0.0F);
+    float lit = 0.0F;
+    std::size_t traced = 0;
+    for (; traced < disc.size(); ++traced) {
+        // Where the first few rays all say the same, so would the others: only in penumbrae are they worth tracing.
+        if (traced == kSunScouts && whole && max_component(most - least) <= 0.01F) {
+            break;
+        }
+        const vec2 offset = radius * disc[traced];
+        const vec3 to_sun = glm::normalize(offset.x * t + offset.y * b - sun.axis);
+        const float c = whole ? cosine : glm::dot(normal, to_sun);
+        const Rgb through = c > 0.0F ? rays_.transmittance_to_infinity(point, to_sun) : Rgb(0.0F);
+        least = glm::min(least, through);
+        most = glm::max(most, through);
+        sum += through * std::max(c, 0.0F);
+        lit += max_component(through) > 0.0F ? 1.0F : 0.0F;
+    }
+    const auto n = float(traced);
+    out.irradiance += full * sum / n;
+    if (lit > 0.0F && lit < n) {
+        // Of n even points about 2 sqrt(n p (1 - p)) stand for pieces of the disc that an edge cuts: each is off by a
+        // variance of 1/12 of its light squared.
+        const float p = lit / n;
+        const float light = luminance(full) * std::max(cosine, radius);
+        out.variance += light * light * 2.0F * std::sqrt(p * (1.0F - p)) / (12.0F * n * std::sqrt(n));
+    }
 }
 
 namespace {
@@ -136,11 +191,10 @@ void DirectLight::add_open_sky(const vec3& point, const vec3& normal, unsigned s
             for (int sector = 0; sector < grid.sectors; ++sector) {
                 if (grid.known[grid.at(ring, sector)] != 0) {
                     const vec3 direction = grid.direction(ring, sector, t, b, normal);
-                    Rgb through = rays_.transmittance_to_infinity(point, direction);
-                    if (!panes_.empty() && max_component(through) > 0.0F && rays_.first_pane(point, direction)) {
-                        through = Rgb(0.0F); // counted with the pane
-                    }
-                    grid.seen[grid.at(ring, sector)] = through;
+                    float pane = 0.0F;
+                    const Rgb through = rays_.transmittance_to_infinity(point, direction, pane);
+                    // What a pane lets through is counted with the pane.
+                    grid.seen[grid.at(ring, sector)] = std::isfinite(pane) ? Rgb(0.0F) : through;
                 }
             }
         }
@@ -187,8 +241,6 @@ void DirectLight::add_sky_through_panes(const vec3& point, const vec3& normal, u
         if (!(factors[i] > 1e-5F)) {
             continue;
         }
-        const auto& pane = panes_[i];
-        const vec3 pane_normal = glm::normalize(glm::cross(pane[1] - pane[0], pane[2] - pane[0]));
         // Strong panes get rays by their share; of the many weak ones that a house has, some stand for all. Every pane has
         // its fixed number, so neighbouring points pick the same ones.
         const float wanted = factors[i] / sum * float(sky_rays);
@@ -201,44 +253,43 @@ void DirectLight::add_sky_through_panes(const vec3& point, const vec3& normal, u
             stands_for = 2.0F / wanted;
         }
         const auto count = unsigned(std::exp2(std::round(std::log2(std::max(wanted, 2.0F)))));
-        Rgb seen(0.0F);
-        float weights = 0.0F;
-        float clear = 0.0F;
-        for (unsigned k = 0; k < count; ++k) {
-            vec2 u = sobol_owen2(k, 0, std::uint32_t(0x5B7U + i));
-            if (u.x + u.y > 1.0F) {
-                u = vec2(1.0F) - u;
-            }
-            const vec3 y = pane[0] + (pane[1] - pane[0]) * u.x + (pane[2] - pane[0]) * u.y;
-            const vec3 d = y - point;
-            const float distance = glm::length(d);
-            const float cosine = glm::dot(d, normal);
-            if (!(distance > 0.0F) || cosine <= 0.0F) {
-                continue;
-            }
-            const float weight = cosine * std::abs(glm::dot(d, pane_normal)) / (distance * distance * distance * distance);
-            weights += weight;
-            const vec3 direction = d / distance;
-            const Rgb through = rays_.transmittance_to_infinity(point, direction);
-            if (!(max_component(through) > 0.0F)) {
-                continue;
-            }
-            const Hit first = rays_.first_pane(point, direction);
-            if (first && first.t < distance * (1.0F - 1e-3F) - 1e-4F) {
-                continue; // another pane stands before this one
-            }
-            seen += through * weight;
-            clear += 1.0F;
-        }
-        if (weights > 0.0F) {
-            out.irradiance += whole * (factors[i] * stands_for / weights) * seen;
-            const auto n = float(count);
-            if (clear > 0.0F && clear < n) {
+        const PaneView view = look_through(i, point, normal, count);
+        if (view.weights > 0.0F) {
+            out.irradiance += whole * (factors[i] * stands_for / view.weights) * view.seen;
+            const float n = view.points;
+            if (view.clear > 0.0F && view.clear < n) {
                 const float light = luminance(whole) * factors[i] * stands_for;
-                out.variance += light * light * (clear + 1.0F) * (n - clear + 1.0F) / ((n + 2.0F) * (n + 2.0F) * n);
+                out.variance +=
+                    light * light * (view.clear + 1.0F) * (n - view.clear + 1.0F) / ((n + 2.0F) * (n + 2.0F) * n);
             }
         }
     }
+}
+
+DirectLight::PaneView DirectLight::look_through(std::size_t pane, const vec3& point, const vec3& normal,
+                                                unsigned count) const {
+    PaneView view;
+    for (unsigned k = 0; k < count; ++k) {
+        const vec3 y = k < kPanePoints ? pane_points_[pane * kPanePoints + k] : make_pane_point(panes_[pane], pane, k);
+        const vec3 d = y - point;
+        const float distance2 = glm::dot(d, d);
+        const float cosine = glm::dot(d, normal);
+        if (!(distance2 > 0.0F) || cosine <= 0.0F) {
+            continue;
+        }
+        const float weight = cosine * std::abs(glm::dot(d, pane_normals_[pane])) / (distance2 * distance2);
+        view.weights += weight;
+        view.points += 1.0F;
+        const float distance = std::sqrt(distance2);
+        float first = 0.0F;
+        const Rgb through = rays_.transmittance_to_infinity(point, d / distance, first);
+        // Where another pane stands before this one, the light is that one's.
+        if (max_component(through) > 0.0F && first >= distance * (1.0F - 1e-3F) - 1e-4F) {
+            view.seen += through * weight;
+            view.clear += 1.0F;
+        }
+    }
+    return view;
 }
 
 double DirectLight::emitted_flux() const {

@@ -36,7 +36,6 @@ private:
     const RayScene& rays_;
     LeafFlags bright_;
     Hierarchy bright_tree_; ///< empty when nothing stands out
-    DirectLight no_lights_;
     PointGather bright_gather_;
     float offset_ = 1e-4F;         ///< of ray origins from their surface, metres
     std::vector<vec3> directions_; ///< cosine-weighted, +z up

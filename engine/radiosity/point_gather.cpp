@@ -130,8 +130,8 @@ PointGather::Visibility PointGather::visibility(std::uint32_t element, const Sur
 
 DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, const GatherSettings& settings) const {
     DirectSample out;
-    if (!direct_.empty()) {
-        out = direct_.irradiance(point, normal, settings.sun_rays, settings.sky_rays);
+    if (direct_ != nullptr && !direct_->empty()) {
+        out = direct_->irradiance(point, normal, settings.sun_rays, settings.sky_rays);
     }
     if (h_.empty() || !(h_.elements[0].power > 0.0F)) {
         return out;

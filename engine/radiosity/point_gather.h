@@ -18,7 +18,8 @@ struct GatherSettings {
 /// Safe from any thread while the hierarchy does not change.
 class PointGather {
 public:
-    PointGather(const Hierarchy& hierarchy, const RayScene& rays, const DirectLight& direct)
+    /// Without `direct` it gathers from the tree alone.
+    PointGather(const Hierarchy& hierarchy, const RayScene& rays, const DirectLight* direct = nullptr)
         : h_(hierarchy), rays_(rays), direct_(direct) {}
 
     /// Irradiance on a small plane at `point` (engine coordinates) with unit `normal`, surfaces, sun, sky and lamps
@@ -35,7 +36,7 @@ private:
 
     const Hierarchy& h_;
     const RayScene& rays_;
-    const DirectLight& direct_;
+    const DirectLight* direct_;
 };
 
 } // namespace atrium

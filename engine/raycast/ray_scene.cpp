@@ -297,7 +297,9 @@ struct RayScene::Impl {
         return through;
     }
 
-    Rgb transmit(const RayScene& self, const vec3& from, const vec3& direction, float tnear, float tfar) {
+    // `first_pane`, where given, becomes the distance of the first pane crossed.
+    Rgb transmit(const RayScene& self, const vec3& from, const vec3& direction, float tnear, float tfar,
+                 float* first_pane = nullptr) {
         if (blocked(from, direction, tnear, tfar, kOpaqueMask)) {
             return Rgb(0.0F);
         }
@@ -309,6 +311,9 @@ struct RayScene::Impl {
             const Hit h = hit(filters, from, direction, tnear, tfar);
             if (!h) {
                 return through;
+            }
+            if (first_pane != nullptr && surfaces[h.surface].pane) {
+                *first_pane = std::min(*first_pane, h.t);
             }
             through *= filter(self, h, direction);
             if (max_component(through) <= 1e-4F) {
@@ -396,16 +401,10 @@ Rgb RayScene::let_through(const Hit& hit, const vec3& direction) const {
     return lets_light_through(*impl_->materials[hit.surface]) ? impl_->filter(*this, hit, direction) : Rgb(0.0F);
 }
 
-Hit RayScene::first_pane(const vec3& from, const vec3& direction) const {
-    float tnear = 0.0F;
-    for (int crossing = 0; impl_->any_filter && crossing < kMaxCrossings; ++crossing) {
-        const Hit h = impl_->hit(impl_->filters, from, direction, tnear, std::numeric_limits<float>::infinity());
-        if (!h || impl_->surfaces[h.surface].pane) {
-            return h;
-        }
-        tnear = h.t + std::max(1e-5F, 1e-6F * h.t);
-    }
-    return {};
+Rgb RayScene::transmittance_to_infinity(const vec3& from, const vec3& direction, float& first_pane) const {
+    constexpr float kFar = std::numeric_limits<float>::infinity();
+    first_pane = kFar;
+    return impl_->transmit(*this, from, direction, end_offset(from), kFar, &first_pane);
 }
 
 vec4 RayScene::base_color(std::uint32_t surface, std::uint32_t triangle, const vec2& barycentric) const {

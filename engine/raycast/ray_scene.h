@@ -74,12 +74,12 @@ public:
     [[nodiscard]] Rgb transmittance(const vec3& from, const vec3& to) const;
     /// The same along a ray that never ends (sun, sky).
     [[nodiscard]] Rgb transmittance_to_infinity(const vec3& from, const vec3& direction) const;
+    /// The same, with the distance of the first pane crossed in `first_pane`; infinite where nothing arrives or no pane is
+    /// crossed.
+    [[nodiscard]] Rgb transmittance_to_infinity(const vec3& from, const vec3& direction, float& first_pane) const;
 
     /// Share of light that goes straight on at a hit (glass, alpha blending), 0 for what is opaque.
     [[nodiscard]] Rgb let_through(const Hit& hit, const vec3& direction) const;
-
-    /// First pane that a ray without end crosses, whatever stands in between; none when it crosses no pane.
-    [[nodiscard]] Hit first_pane(const vec3& from, const vec3& direction) const;
 
     /// Material of a surface; the default material where it has none.
     [[nodiscard]] const Material& material(std::uint32_t surface) const;

@@ -61,6 +61,7 @@ struct GiEngine::Impl {
     DirectMaps maps; ///< direct light on charted surfaces
     Hierarchy hierarchy;
     Hierarchy emitters;                  ///< the tree in which only named emitters shine; empty when there are none
+    std::unique_ptr<PointGather> lamps;  ///< named emitters alone
     std::unique_ptr<PointGather> direct; ///< named emitters and `punctual` together
     std::unique_ptr<IndirectGather> reflected;
     FieldSettings field;
@@ -68,6 +69,22 @@ struct GiEngine::Impl {
     bool solved = false;
 
     [[nodiscard]] bool nothing_direct() const { return punctual->empty() && emitters.empty(); }
+    // Direct light in parts, the sharpest and cheapest first; none that the scene does not have. `settings` must outlive it.
+    [[nodiscard]] std::vector<DirectFunction> direct_parts(const GatherSettings& settings) const {
+        std::vector<DirectFunction> parts;
+        if (!punctual->lights().empty()) {
+            parts.emplace_back(
+                [&](const vec3& p, const vec3& n) { return punctual->lamps_irradiance(p, n, settings.sun_rays); });
+        }
+        if (!emitters.empty()) {
+            parts.emplace_back([&](const vec3& p, const vec3& n) { return lamps->irradiance(p, n, settings); });
+        }
+        if (punctual->has_sky()) {
+            parts.emplace_back(
+                [&](const vec3& p, const vec3& n) { return punctual->sky_irradiance(p, n, settings.sky_rays); });
+        }
+        return parts;
+    }
     [[nodiscard]] DirectSample direct_light(const vec3& point, const vec3& normal, const GatherSettings& settings) const {
         return direct->irradiance(point, normal, settings);
     }
@@ -85,7 +102,8 @@ struct GiEngine::Impl {
                 }
             }
         }
-        direct = std::make_unique<PointGather>(emitters, *rays, *punctual);
+        direct = std::make_unique<PointGather>(emitters, *rays, punctual.get());
+        lamps = std::make_unique<PointGather>(emitters, *rays);
     }
 
     // Direct light on every leaf; leaves whose samples disagree are split first, so that sun patches find their place.
@@ -317,9 +335,10 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
             s.maps.complete = true;
             return true;
         }
+        const std::vector<DirectFunction> parts = s.direct_parts(field.direct);
         s.maps = build_direct_maps(
-            *s.rays, s.charts, [&](const vec3& p, const vec3& n) { return s.direct_light(p, n, field.direct); },
-            [&](std::uint32_t surface) { return s.rays->surfaces()[surface].back_side; }, settings, context, from, to);
+            *s.rays, s.charts, parts, [&](std::uint32_t surface) { return s.rays->surfaces()[surface].back_side; }, settings,
+            context, from, to);
         return s.maps.complete;
     };
     if (!direct_maps(quality.first_maps, quality.first_field, 0.03, 0.06)) {

@@ -254,7 +254,7 @@ TEST(Layers, VertexBudgetIsKept) {
     const RayScene rays(scene);
     const DirectLight direct(scene, rays);
     const Hierarchy hierarchy = build_hierarchy(rays, {});
-    const PointGather gather(hierarchy, rays, direct);
+    const PointGather gather(hierarchy, rays, &direct);
     LayerSettings settings;
     settings.base_edge = 1.0F;
     settings.contrast = 0.001F;

@@ -1,0 +1,88 @@
+// One part of the direct light on all sheets: where it is sampled, and how closely.
+#pragma once
+
+#include "engine/base/run_context.h"
+#include "engine/layers/direct_map_builder.h"
+#include "engine/layers/light_cells.h"
+#include "engine/layers/light_sheets.h"
+#include "engine/layers/tile_budget.h"
+
+#include <array>
+#include <vector>
+
+namespace atrium {
+
+/// Cells divided as the light asks for. Engine thread; parallel inside.
+class LightPart {
+public:
+    /// All arguments must outlive it. `before` are parts that are done: errors are judged against their light too.
+    LightPart(const LightSheets& sheets, const DirectFunction& direct, const std::vector<LightPart>& before,
+              const DirectMapSettings& settings, TileBudget& budget, const RunContext& context);
+
+    /// Samples and divides until all is smooth, as fine as allowed, or the budget is spent; false when asked to stop.
+    bool run(double progress_from, double progress_to);
+
+    [[nodiscard]] LightCells& cells() { return cells_; }
+    [[nodiscard]] const LightCells& cells() const { return cells_; }
+    /// Calls of the direct function.
+    [[nodiscard]] std::size_t evaluations() const;
+
+private:
+    /// A sample to take.
+    struct Request {
+        std::uint32_t sheet = 0;
+        std::uint32_t index = 0; ///< of its node, or of its probe
+        bool probe = false;
+        vec2 at{0.0F};      ///< metres along the chart
+        float reach = 0.0F; ///< metres: with no triangle within them the place is away from the surface
+    };
+    /// A sample inside a cell of the first level, at a scattered place: what lies between the nodes.
+    struct Probe {
+        vec2 at{0.0F}; ///< steps
+        LightGuess seen;
+        bool covered = false;
+    };
+    /// A cell that ought to be divided, and how far it is off.
+    struct Rough {
+        LightCell cell;
+        float error = 0.0F;
+    };
+
+    std::vector<LightCell> first_cells();
+    void ask_for_nodes(unsigned level);
+    void ask_for_probe(const LightCell& cell);
+    bool sample(double from, double to);
+    void take(const Request& request);
+
+    [[nodiscard]] float relative(float difference, float variance, float light) const;
+    [[nodiscard]] float bend(const LightCell& cell, const LightGuess& a, const LightGuess& b, const LightNode& start,
+                             bool along_u, float light) const;
+    [[nodiscard]] float change_at_cover(const LightCell& cell, std::uint32_t known, std::uint32_t covered,
+                                        float light) const;
+    [[nodiscard]] float off(const LightCell& cell, const LightGuess& seen, float dx, float dy) const;
+    [[nodiscard]] float error(const LightCell& cell) const;
+    [[nodiscard]] float other_light(const LightCell& cell) const;
+    [[nodiscard]] Rough beside(const LightNode& node, std::size_t quadrant) const;
+    void examine(const std::vector<LightCell>& fresh, std::vector<Rough>& rough) const;
+    void look_beside(std::size_t first_new, std::vector<Rough>& rough) const;
+    std::vector<LightCell> divide(std::vector<Rough>& rough);
+
+    [[nodiscard]] vec2 metres_per_step(std::uint32_t sheet) const;
+    [[nodiscard]] float edge_metres(const LightCell& cell) const;
+    [[nodiscard]] std::size_t probe_index(const LightCell& cell) const;
+
+    const LightSheets& sheets_;
+    const DirectFunction& direct_;
+    const std::vector<LightPart>& before_;
+    const DirectMapSettings& settings_;
+    TileBudget& budget_;
+    const RunContext& context_;
+    LightCells cells_;
+    std::vector<std::size_t> first_probe_; ///< per sheet; a probe per cell of the first level, row by row
+    std::vector<Probe> probes_;
+    std::vector<Request> requests_;
+    std::size_t asked_ = 0;   ///< nodes that were asked for
+    std::size_t sampled_ = 0; ///< nodes that were sampled
+};
+
+} // namespace atrium
