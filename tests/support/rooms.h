@@ -3,6 +3,7 @@
 
 #include "engine/scene/scene.h"
 #include "engine/solver/gi_engine.h"
+#include "tests/support/light_maps.h"
 
 #include <array>
 
@@ -96,7 +97,7 @@ inline double mean_irradiance(const Scene& scene, const Solution& solution, Node
             double e = 0.0;
             for (std::size_t k = 0; k < 3; ++k) {
                 p[k] = dvec3(world * dvec4(dvec3(mesh.positions[mesh.indices[t + k]]), 1.0));
-                e += luminance(layer->irradiance_front[mesh.indices[t + k]]) / 3.0;
+                e += luminance(light_on(*layer, mesh.indices[t + k])) / 3.0;
             }
             const double area = 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
             sum += e * area;
