@@ -41,9 +41,9 @@ Result<StillOptions> parse_size(const std::string& text) {
     return fail("", "--size", fmt::format("'{}' is not a size", text), "Write it as 1280x720, each side from 1 to 16384.");
 }
 
-/// Which light the picture shows. Direct light is part of the diffuse layer and there is no caustic layer in this version.
+/// Which light the picture shows. There is no caustic layer in this version.
 struct LayerChoice {
-    bool diffuse = true;
+    LightShares seen; ///< on what is seen directly
     bool specular = true;
 };
 
@@ -51,17 +51,16 @@ Result<LayerChoice> parse_layers(const std::string& text) {
     if (text.empty()) {
         return LayerChoice{};
     }
-    bool direct = false;
-    LayerChoice choice{false, false};
+    LayerChoice choice{{false, false}, false};
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
         const std::string name = text.substr(begin, end - begin);
         if (name == "diffuse") {
-            choice.diffuse = true;
+            choice.seen.diffuse = true;
         } else if (name == "specular") {
             choice.specular = true;
         } else if (name == "direct") {
-            direct = true;
+            choice.seen.direct = true;
         } else if (name == "caustic") {
             complain("note: --layers: there is no caustic layer in this version; 'caustic' adds nothing");
         } else {
@@ -70,28 +69,10 @@ Result<LayerChoice> parse_layers(const std::string& text) {
         }
         begin = end + 1;
     }
-    if (direct && !choice.diffuse) {
-        return fail("", "--layers", "direct light is part of the diffuse layer in this version", "Ask for diffuse as well.");
-    }
-    if (!choice.diffuse && !choice.specular) {
-        return fail("", "--layers", "none of these layers exists in this version", "Ask for diffuse, specular or both.");
+    if (!choice.seen.direct && !choice.seen.diffuse && !choice.specular) {
+        return fail("", "--layers", "none of these layers exists in this version", "Ask for direct, diffuse or specular.");
     }
     return choice;
-}
-
-Picture draw(const Solved& solved, const ViewCamera& camera, StillOptions options, const LayerChoice& layers,
-             const RunContext& context) {
-    const int depth = options.max_specular_depth;
-    options.max_specular_depth = layers.specular ? depth : 0;
-    Picture picture = render_still(solved.scene, *solved.solution, camera, options, context);
-    if (!layers.diffuse && !context.should_stop()) { // what mirrors and glass show: all light less what is seen directly
-        options.max_specular_depth = 0;
-        const Picture seen = render_still(solved.scene, *solved.solution, camera, options, context);
-        for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
-            picture.pixels[i] = glm::max(picture.pixels[i] - seen.pixels[i], Rgb(0.0F));
-        }
-    }
-    return picture;
 }
 
 int run(const Arguments& a) {
@@ -99,7 +80,7 @@ int run(const Arguments& a) {
     if (extension != ".exr" && extension != ".png") {
         return refuse({a.out, "", "cannot be written in this format", "Use a name that ends in .exr or .png."});
     }
-    const auto options = parse_size(a.size);
+    auto options = parse_size(a.size);
     const auto layers = parse_layers(a.layers);
     if (!options || !layers) {
         return refuse(!options ? options.error() : layers.error());
@@ -124,7 +105,11 @@ int run(const Arguments& a) {
     RunContext context;
     context.stop = new_stop_flag();
     context.on_progress = progress_reporter(a.solve.progress);
-    Picture picture = draw(*solved, *camera, *options, *layers, context);
+    options->shares = layers->seen;
+    if (!layers->specular) {
+        options->max_specular_depth = 0;
+    }
+    Picture picture = render_still(solved->scene, *solved->solution, *camera, *options, context);
     finish_progress();
     solved->stopped = solved->stopped || context.should_stop();
     if (extension == ".png") {

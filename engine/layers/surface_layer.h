@@ -51,6 +51,7 @@ struct SurfaceLayer {
 struct LightShares {
     bool diffuse = true;
     bool direct = true;
+    friend bool operator==(const LightShares&, const LightShares&) = default;
 };
 
 /// Irradiance in a triangle of a layer's mesh, lux: `vertex` are three indices into it, `weight` their barycentric weights.

@@ -42,8 +42,8 @@ Hierarchy tree_of(const Hierarchy& solved, const LeafFlags& bright) {
 } // namespace
 
 IndirectGather::IndirectGather(const Hierarchy& solved, const RayScene& rays, LeafFlags bright)
-    : h_(solved), rays_(rays), bright_(std::move(bright)), bright_tree_(tree_of(solved, bright_)), no_lights_(Scene{}, rays),
-      bright_gather_(bright_tree_, rays, no_lights_), offset_(std::clamp(1e-5F * rays.bounds().diagonal(), 1e-6F, 1e-3F)),
+    : h_(solved), rays_(rays), bright_(std::move(bright)), bright_tree_(tree_of(solved, bright_)),
+      bright_gather_(bright_tree_, rays), offset_(std::clamp(1e-5F * rays.bounds().diagonal(), 1e-6F, 1e-3F)),
       directions_(cosine_directions()) {}
 
 // Radiosity that arrives along a ray, glass in between included.

@@ -81,8 +81,7 @@ SensorReading read_surface(const Scene& scene, const Solution& solution, const d
             const double distance = glm::length(nearest - point);
             if (distance < best) {
                 best = distance;
-                const auto& light = back ? layer->irradiance_back : layer->irradiance_front;
-                out.irradiance = light[v[0]] * float(1.0 - w.x - w.y) + light[v[1]] * float(w.x) + light[v[2]] * float(w.y);
+                out.irradiance = irradiance_at(*layer, {v[0], v[1], v[2]}, vec3(dvec3(1.0 - w.x - w.y, w.x, w.y)), back);
                 out.on_surface = true;
             }
         }

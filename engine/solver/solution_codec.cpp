@@ -1,9 +1,10 @@
-// Layers and statistics as bytes for the project file: a fixed header, a JSON part, raw arrays; all zstd-compressed.
+// Layers and statistics as bytes for the project file: a fixed header, a JSON part, arrays as byte planes, light maps as
+// residuals of halves; all zstd-compressed.
+#include "engine/solver/light_map_codec.h"
 #include "engine/solver/solution.h"
 
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <type_traits>
 #include <unordered_map>
 #include <zstd.h>
 
@@ -11,59 +12,15 @@ namespace atrium {
 namespace {
 
 constexpr char kMagic[8] = {'A', 'T', 'R', 'L', 'I', 'G', 'H', 'T'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::uint64_t kMaxBytes = std::uint64_t(4) << 30;
+constexpr float kLargestChartCoordinate = 1e6F; ///< tiles; no surface has a thousandth of it
 
 struct Header {
     char magic[8];
     std::uint32_t version;
     std::uint32_t reserved;
     std::uint64_t raw_size;
-};
-
-class Writer {
-public:
-    template <class T> void value(const T& v) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        const auto* p = reinterpret_cast<const std::byte*>(&v);
-        bytes.insert(bytes.end(), p, p + sizeof(T));
-    }
-    template <class T> void array(const std::vector<T>& v) {
-        value(std::uint64_t(v.size()));
-        const auto* p = reinterpret_cast<const std::byte*>(v.data());
-        bytes.insert(bytes.end(), p, p + v.size() * sizeof(T));
-    }
-    std::vector<std::byte> bytes;
-};
-
-class Reader {
-public:
-    explicit Reader(std::span<const std::byte> b) : bytes_(b) {}
-    template <class T> bool value(T& v) {
-        if (bytes_.size() - at_ < sizeof(T)) {
-            return false;
-        }
-        std::memcpy(&v, bytes_.data() + at_, sizeof(T));
-        at_ += sizeof(T);
-        return true;
-    }
-    template <class T> bool array(std::vector<T>& v) {
-        std::uint64_t count = 0;
-        if (!value(count) || count > (bytes_.size() - at_) / sizeof(T)) {
-            return false;
-        }
-        v.resize(count);
-        if (count > 0) {
-            std::memcpy(static_cast<void*>(v.data()), bytes_.data() + at_, count * sizeof(T));
-        }
-        at_ += count * sizeof(T);
-        return true;
-    }
-    [[nodiscard]] bool at_end() const { return at_ == bytes_.size(); }
-
-private:
-    std::span<const std::byte> bytes_;
-    std::size_t at_ = 0;
 };
 
 nlohmann::json to_json(const Statistics& s) {
@@ -130,10 +87,10 @@ Statistics statistics_from(const nlohmann::json& j) {
 bool plausible(const SurfaceLayer& layer) {
     const DisplayMesh& mesh = *layer.mesh;
     const std::size_t n = mesh.positions.size();
-    const auto optional = [&](std::size_t size) { return size == 0 || size == n; };
-    if (mesh.normals.size() != n || layer.irradiance_front.size() != n || !optional(layer.irradiance_back.size()) ||
-        !optional(mesh.texcoords0.size()) || !optional(mesh.texcoords1.size()) || !optional(mesh.colors.size()) ||
-        mesh.indices.size() % 3 != 0) {
+    const auto optional = [&](const auto& values) { return values.empty() || values.size() == n; };
+    if (mesh.normals.size() != n || layer.irradiance_front.size() != n || !optional(layer.irradiance_back) ||
+        !optional(layer.direct_front) || !optional(layer.direct_back) || !optional(mesh.texcoords0) ||
+        !optional(mesh.texcoords1) || !optional(mesh.colors) || !optional(mesh.light_uv) || mesh.indices.size() % 3 != 0) {
         return false;
     }
     for (const std::uint32_t i : mesh.indices) {
@@ -141,14 +98,56 @@ bool plausible(const SurfaceLayer& layer) {
             return false;
         }
     }
-    for (const auto* values : {&mesh.positions, &mesh.normals, &layer.irradiance_front, &layer.irradiance_back}) {
+    for (const auto* values : {&mesh.positions, &mesh.normals, &layer.irradiance_front, &layer.irradiance_back,
+                               &layer.direct_front, &layer.direct_back}) {
         for (const vec3& v : *values) {
             if (!is_finite(v)) {
                 return false;
             }
         }
     }
-    return true;
+    return std::all_of(mesh.light_uv.begin(), mesh.light_uv.end(), [](const vec2& uv) {
+        return std::abs(uv.x) <= kLargestChartCoordinate && std::abs(uv.y) <= kLargestChartCoordinate; // not NaN either
+    });
+}
+
+// Vertices of neighbouring triangles have neighbouring numbers: what is stored is the step from one to the next.
+std::vector<std::uint32_t> steps_of(const std::vector<std::uint32_t>& indices) {
+    std::vector<std::uint32_t> steps(indices.size());
+    std::uint32_t last = 0;
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        const std::uint32_t step = indices[i] - last;
+        steps[i] = (step << 1U) ^ ((step >> 31U) != 0 ? 0xFFFFFFFFU : 0U);
+        last = indices[i];
+    }
+    return steps;
+}
+void take_steps(std::vector<std::uint32_t>& indices) {
+    std::uint32_t last = 0;
+    for (std::uint32_t& i : indices) {
+        last += (i >> 1U) ^ ((i & 1U) != 0 ? 0xFFFFFFFFU : 0U);
+        i = last;
+    }
+}
+
+void write_map(ByteWriter& out, const std::shared_ptr<const LightMap>& map) {
+    out.value(std::uint8_t(map != nullptr));
+    if (map) {
+        write_light_map(out, *map);
+    }
+}
+bool read_map(ByteReader& in, std::shared_ptr<const LightMap>& out) {
+    std::uint8_t present = 0;
+    if (!in.value(present) || present > 1) {
+        return false;
+    }
+    if (present == 0) {
+        return true;
+    }
+    auto map = std::make_shared<LightMap>();
+    const bool good = read_light_map(in, *map);
+    out = std::move(map);
+    return good;
 }
 
 } // namespace
@@ -158,7 +157,7 @@ std::vector<std::byte> encode_solution(const Solution& solution, const Scene& sc
     for (const NodeId id : scene.in_tree_order()) {
         order.emplace(id, std::uint32_t(order.size()));
     }
-    Writer out;
+    ByteWriter out;
     const std::string text = to_json(solution.statistics).dump();
     out.array(std::vector<char>(text.begin(), text.end()));
     out.value(std::uint8_t(solution.final));
@@ -179,9 +178,14 @@ std::vector<std::byte> encode_solution(const Solution& solution, const Scene& sc
         out.array(mesh.texcoords0);
         out.array(mesh.texcoords1);
         out.array(mesh.colors);
-        out.array(mesh.indices);
+        out.array(mesh.light_uv);
+        out.array(steps_of(mesh.indices));
         out.array(layer->irradiance_front);
         out.array(layer->irradiance_back);
+        out.array(layer->direct_front);
+        out.array(layer->direct_back);
+        write_map(out, layer->direct_map_front);
+        write_map(out, layer->direct_map_back);
     }
     Header header{};
     std::memcpy(header.magic, kMagic, sizeof kMagic);
@@ -222,7 +226,7 @@ Result<std::shared_ptr<const Solution>> decode_solution(std::span<const std::byt
     if (ZSTD_isError(size) != 0U || size != raw.size()) {
         return damaged();
     }
-    Reader in(raw);
+    ByteReader in(raw);
     auto solution = std::make_shared<Solution>();
     std::vector<char> text;
     std::uint8_t final = 0;
@@ -244,10 +248,13 @@ Result<std::shared_ptr<const Solution>> decode_solution(std::span<const std::byt
         std::uint32_t node = 0;
         if (!in.value(node) || node >= nodes.size() || !in.value(layer->part) || !in.array(mesh->positions) ||
             !in.array(mesh->normals) || !in.array(mesh->texcoords0) || !in.array(mesh->texcoords1) ||
-            !in.array(mesh->colors) || !in.array(mesh->indices) || !in.array(layer->irradiance_front) ||
-            !in.array(layer->irradiance_back)) {
+            !in.array(mesh->colors) || !in.array(mesh->light_uv) || !in.array(mesh->indices) ||
+            !in.array(layer->irradiance_front) || !in.array(layer->irradiance_back) || !in.array(layer->direct_front) ||
+            !in.array(layer->direct_back) || !read_map(in, layer->direct_map_front) ||
+            !read_map(in, layer->direct_map_back)) {
             return damaged();
         }
+        take_steps(mesh->indices);
         layer->node = nodes[node];
         layer->mesh = std::move(mesh);
         if (!plausible(*layer)) {
@@ -255,7 +262,7 @@ Result<std::shared_ptr<const Solution>> decode_solution(std::span<const std::byt
         }
         solution->surfaces.push_back(std::move(layer));
     }
-    if (!in.at_end()) {
+    if (in.left() != 0) {
         return damaged();
     }
     return solution;

@@ -52,7 +52,7 @@ LitScene::LitScene(const Scene& scene, const Solution& solution) {
     rays_ = std::make_unique<RayScene>(lit);
 }
 
-Rgb LitScene::irradiance(const Hit& hit) const {
+Rgb LitScene::irradiance(const Hit& hit, const LightShares& shares) const {
     const RaySurface& surface = rays_->surfaces()[hit.surface];
     const auto it = parts_.find(surface.node);
     if (it == parts_.end() || surface.part >= it->second.size()) {
@@ -60,14 +60,13 @@ Rgb LitScene::irradiance(const Hit& hit) const {
     }
     const Part& part = it->second[surface.part];
     // Single-sided back sides and solids' insides have no light of their own; what has two sides shows the one met.
-    const bool use_back = !hit.front && !part.layer->irradiance_back.empty();
+    const bool use_back = !hit.front && part.layer->has_back();
     if (!hit.front && !use_back) {
         return Rgb(0.0F);
     }
-    const auto& light = use_back ? part.layer->irradiance_back : part.layer->irradiance_front;
     const uvec3 t = surface.triangles[hit.triangle] - uvec3(part.first_vertex);
     const vec2& b = hit.barycentric;
-    return light[t.x] * (1.0F - b.x - b.y) + light[t.y] * b.x + light[t.z] * b.y;
+    return irradiance_at(*part.layer, {t.x, t.y, t.z}, vec3(1.0F - b.x - b.y, b.x, b.y), use_back, shares);
 }
 
 } // namespace atrium

@@ -17,7 +17,7 @@ public:
 
     [[nodiscard]] const RayScene& rays() const { return *rays_; }
     /// Irradiance on the side of the surface that the ray met, lux; zero where the solution knows none.
-    [[nodiscard]] Rgb irradiance(const Hit& hit) const;
+    [[nodiscard]] Rgb irradiance(const Hit& hit, const LightShares& shares = {}) const;
 
 private:
     struct Part {

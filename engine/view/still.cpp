@@ -35,17 +35,18 @@ Dielectric dielectric(const vec3& d, const vec3& n, float eta) { // eta = n_inci
 /// Follows eye rays over mirrors, metals and glass to surfaces whose light is known.
 class EyeTracer {
 public:
-    EyeTracer(const LitScene& lit, const Rgb& sky, int max_depth)
-        : lit_(lit), rays_(lit.rays()), sky_(sky), max_depth_(max_depth) {}
+    EyeTracer(const LitScene& lit, const Rgb& sky, const StillOptions& options)
+        : lit_(lit), rays_(lit.rays()), sky_(sky), max_depth_(options.max_specular_depth), shares_(options.shares) {}
 
     [[nodiscard]] Rgb radiance(Ray ray, int depth, float throughput, std::uint32_t seed) const {
         Rgb sum(0.0F);
         Rgb weight(1.0F);
+        const LightShares shares = depth == 0 ? shares_ : LightShares{};
         // Straight passages (culled back sides, blended surfaces, thin glass) go on in this loop; bounces recurse.
         for (int pass = 0; pass < 64; ++pass) {
             const Hit hit = rays_.nearest(ray);
             if (!hit) {
-                return sum + weight * sky_;
+                return shares.direct ? sum + weight * sky_ : sum;
             }
             const Material& m = rays_.material(hit.surface);
             const MaterialKind kind = classify(m);
@@ -57,8 +58,9 @@ public:
             }
             const vec4 color = rays_.base_color(hit.surface, hit.triangle, hit.barycentric);
             const float cover = m.alpha_mode == Material::Alpha::Blend ? std::clamp(color.a, 0.0F, 1.0F) : 1.0F;
-            const Rgb emitted =
-                hit.front || m.double_sided ? rays_.emission(hit.surface, hit.triangle, hit.barycentric) : Rgb(0.0F);
+            const Rgb emitted = shares.direct && (hit.front || m.double_sided)
+                                    ? rays_.emission(hit.surface, hit.triangle, hit.barycentric)
+                                    : Rgb(0.0F);
             sum += weight * cover * emitted;
 
             const bool lobe = kind == MaterialKind::Mirror || (kind == MaterialKind::Glossy && m.roughness < kDullMetal);
@@ -72,7 +74,7 @@ public:
                        bounce(position, facing(hit), glm::reflect(ray.direction, facing(hit)), depth,
                               throughput * max_component(weight) * reflected, seed);
                 weight *= (1.0F - cover) + cover * (1.0F - reflected) * Rgb(color) * m.transmission;
-                sum += weight * cover * (1.0F - m.transmission) * reflection(hit, m, color);
+                sum += weight * cover * (1.0F - m.transmission) * reflection(hit, m, color, shares);
                 go_on();
                 if (max_component(weight) * throughput < kLeastThroughput) {
                     return sum;
@@ -82,7 +84,7 @@ public:
                 return sum + weight * solid_glass(ray, hit, m, Rgb(color), position, depth,
                                                   throughput * max_component(weight), seed);
             } else {
-                sum += weight * cover * reflection(hit, m, color);
+                sum += weight * cover * reflection(hit, m, color, shares);
             }
             weight *= 1.0F - cover;
             if (max_component(weight) * throughput < kLeastThroughput) {
@@ -102,10 +104,10 @@ private:
         return glm::dot(n, direction) < 0.0F ? n : facing(hit);
     }
 
-    [[nodiscard]] Rgb reflection(const Hit& hit, const Material& m, const vec4& color) const {
+    [[nodiscard]] Rgb reflection(const Hit& hit, const Material& m, const vec4& color, const LightShares& shares) const {
         Material at_point = m;
         at_point.base_color = Rgb(color);
-        return diffuse_reflectance(at_point) * lit_.irradiance(hit) * kInvPi;
+        return diffuse_reflectance(at_point) * lit_.irradiance(hit, shares) * kInvPi;
     }
 
     [[nodiscard]] Rgb bounce(const vec3& position, const vec3& side, const vec3& direction, int depth, float throughput,
@@ -173,6 +175,7 @@ private:
     const RayScene& rays_;
     Rgb sky_;
     int max_depth_;
+    LightShares shares_;
 };
 
 } // namespace
@@ -184,7 +187,7 @@ Picture render_still(const Scene& scene, const Solution& solution, const ViewCam
     out.height = std::max(options.height, 1);
     out.pixels.assign(std::size_t(out.width) * std::size_t(out.height), vec3(0.0F));
     const LitScene lit(scene, solution);
-    const EyeTracer tracer(lit, scene.environment.sky_radiance, options.max_specular_depth);
+    const EyeTracer tracer(lit, scene.environment.sky_radiance, options);
     const vec3 eye(dvec3(camera.to_world[3]) - lit.rays().origin());
     const dmat3 axes(camera.to_world);
     const vec3 right(glm::normalize(axes[0]));

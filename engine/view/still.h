@@ -23,6 +23,9 @@ struct StillOptions {
     int height = 720;
     int samples_per_axis = 2; ///< anti-aliasing: n x n stratified samples a pixel
     int max_specular_depth = 12;
+    /// Of the light on what the eye sees without a mirror or a refraction between. What shines itself (surfaces that emit,
+    /// the sky) belongs to the direct share. Mirrors and glass show all light, so the shares and what these show add up.
+    LightShares shares;
 };
 /// Linear radiance picture, cd/m2. Deterministic. Stops with what it has (rest black) when the context says so.
 Picture render_still(const Scene& scene, const Solution& solution, const ViewCamera& camera, const StillOptions& options,

@@ -1,6 +1,7 @@
 #version 330 core
 // Compiled in variants, since a software rasteriser executes every branch: TEXTURED (textures, alpha mask), SPECULAR (metal
-// and glass), HEADLIGHT (no light known yet), CUT (walls that hide the room from outside are left out, see cutaway.h).
+// and glass), HEADLIGHT (no light known yet), CUT (walls that hide the room from outside are left out, see cutaway.h),
+// LIGHT_MAP (direct light in a map, engine/layers/light_map.h).
 // radiance = emitted + rho * irradiance / pi, then exposure, filmic curve and sRGB as in engine/view/tone.h.
 in vec3 v_position;
 in vec3 v_normal;
@@ -9,6 +10,13 @@ in vec2 v_emissive_uv;
 in vec3 v_color;
 in vec3 v_front;
 in vec3 v_back;
+#ifdef LIGHT_MAP
+centroid in vec2 v_light_uv; // tiles
+flat in float v_charted;
+uniform sampler2D u_map;        // irradiance / u_map_scale
+uniform usampler2D u_map_tiles; // first sample x, y; level; used
+uniform float u_map_scale;      // lux
+#endif
 
 uniform vec4 u_base;    // linear colour and alpha
 uniform vec3 u_emitted; // cd/m2
@@ -67,6 +75,38 @@ vec3 reflected(vec3 direction, float roughness) {
 }
 #endif
 
+#ifdef LIGHT_MAP
+// LightMap::irradiance().
+vec3 mapped(vec2 uv) {
+    ivec2 last = textureSize(u_map_tiles, 0) - 1;
+    ivec2 at = clamp(ivec2(floor(uv)), ivec2(0), last);
+    uvec4 tile = texelFetch(u_map_tiles, at, 0);
+    // On an unused tile the nearest used one of the eight around. A loop, since a software rasteriser leaves it when no
+    // fragment needs it, while it executes both sides of every branch.
+    ivec2 middle = at;
+    float nearest = 1e30;
+    for (int k = tile.w == 0u ? 0 : 9; k < 9; ++k) {
+        ivec2 other = middle + ivec2(k % 3, k / 3) - 1;
+        if (other == clamp(other, ivec2(0), last)) {
+            uvec4 found = texelFetch(u_map_tiles, other, 0);
+            vec2 d = uv - clamp(uv, vec2(other), vec2(other + 1));
+            float distance2 = dot(d, d);
+            if (found.w != 0u && distance2 < nearest) {
+                nearest = distance2;
+                at = other;
+                tile = found;
+            }
+        }
+    }
+    // Texel centres are the samples. A little inside the tile: a rounding beyond its last sample would mix in another
+    // tile's light, and sun beside shadow shows at a thousandth.
+    float n = float(1u << tile.z);
+    vec2 inside = clamp(clamp(uv - vec2(at), 0.0, 1.0) * n, 0.002, n - 0.002);
+    vec3 light = textureLod(u_map, (vec2(tile.xy) + inside + 0.5) / vec2(textureSize(u_map, 0)), 0.0).rgb;
+    return tile.w == 0u ? vec3(0.0) : light * u_map_scale;
+}
+#endif
+
 void main() {
 #ifdef CUT
     if (any(greaterThan(u_cut_side * (v_position - u_cut_plane) * step(u_cut_facing, abs(normalize(v_normal))), vec3(0.0)))) {
@@ -89,6 +129,9 @@ void main() {
     float alpha = u_alpha_mode == 2 ? base.a : 1.0;
     vec3 rho = clamp(base.rgb, vec3(0.0), vec3(0.9999)); // kMaxReflectance
     vec3 irradiance = gl_FrontFacing || !u_has_back ? v_front : v_back;
+#ifdef LIGHT_MAP
+    irradiance += v_charted * mapped(v_light_uv);
+#endif
     vec3 radiance = emitted + rho * u_diffuse_share * max(irradiance, vec3(0.0)) * kInvPi;
 
 #if defined(SPECULAR) || defined(HEADLIGHT)

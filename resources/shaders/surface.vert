@@ -7,6 +7,7 @@ layout(location = 3) in vec2 a_uv1;
 layout(location = 4) in vec3 a_color;
 layout(location = 5) in vec3 a_irradiance_front;
 layout(location = 6) in vec3 a_irradiance_back;
+layout(location = 7) in vec2 a_light_uv;
 
 uniform mat4 u_mvp;
 uniform mat4 u_model;  // local to world axes, relative to the eye
@@ -26,6 +27,8 @@ out vec2 v_emissive_uv;
 out vec3 v_color;
 out vec3 v_front;
 out vec3 v_back;
+centroid out vec2 v_light_uv; // never off the triangle, where another chart's tiles may lie
+flat out float v_charted;     // 1 where the triangle has a place in the light map
 
 void main() {
     gl_Position = u_mvp * vec4(a_position, 1.0);
@@ -39,4 +42,6 @@ void main() {
     v_color = a_color;
     v_front = a_irradiance_front;
     v_back = a_irradiance_back;
+    v_light_uv = a_light_uv;
+    v_charted = step(0.0, a_light_uv.x);
 }

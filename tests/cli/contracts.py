@@ -10,7 +10,7 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from support import CLI, ROOM, SHARED, CliTest  # noqa: E402
+from support import CLI, ROOM, SHARED, CliTest, exr_values  # noqa: E402
 
 FEATURES = ["particles", "caustic_textures", "octree", "refraction", "glossy", "sun", "sky", "textures", "direct_layer",
             "specular_view"]
@@ -302,7 +302,26 @@ class Render(CliTest):
         self.run_cli("render", self.room, "-o", self.path("b.exr"), *size, "--layers", "direct,diffuse,caustic,specular")
         self.assertEqual(json.loads(self.run_cli("compare", self.path("a.exr"), self.path("b.exr"), "--json").stdout)["relMSE"], 0)
         self.refused("render", self.room, "-o", self.path("c.exr"), "--layers", "diffuse,shiny", says=["shiny"])
-        self.refused("render", self.room, "-o", self.path("c.exr"), "--layers", "direct", says=["diffuse"])
+        self.refused("render", self.room, "-o", self.path("c.exr"), "--layers", "caustic", says=["direct", "diffuse"])
+
+    def test_direct_and_diffuse_add_up(self):
+        document = json.loads(self.read("room.gltf"))
+        document["nodes"][2]["rotation"] = [0.2588190451, 0.0, 0.0, 0.9659258263]  # 30 degrees up: the lamp is in the picture
+        scene = self.write("up.gltf", json.dumps(document))
+        project = self.path("up.atrium")
+        self.run_cli("solve", scene, "-o", project, "--quality", "draft")
+        values = {}
+        for layers in ("direct,diffuse", "direct", "diffuse", "specular"):
+            self.run_cli("render", project, "-o", self.path("a.exr"), "--size", "24x20", "--layers", layers)
+            values[layers] = exr_values(self.path("a.exr"))
+        self.assertEqual(len(values["direct,diffuse"]), 24 * 20 * 3)
+        for a, b, c in zip(values["direct,diffuse"], values["direct"], values["diffuse"]):
+            self.assertAlmostEqual(a, b + c, delta=1e-3 * a + 1e-3)
+        # What shines itself is direct light; nothing here is a mirror.
+        self.assertAlmostEqual(max(values["direct"]), 1000.0, delta=1.0)
+        self.assertLess(max(values["diffuse"]), 500.0)
+        self.assertGreater(min(values["direct,diffuse"]), 0.0)
+        self.assertEqual(max(values["specular"]), 0.0)
 
     def test_wrong_requests(self):
         self.refused("render", self.room, says=["-o"])

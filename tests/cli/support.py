@@ -6,6 +6,7 @@ import struct
 import subprocess
 import tempfile
 import unittest
+import zlib
 
 CLI = os.environ["ATRIUM_CLI"]
 SOURCE = os.environ["ATRIUM_SOURCE_DIR"]
@@ -50,6 +51,33 @@ def box_room(sky=False):
         "buffers": [{"byteLength": len(data), "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
     }
     return json.dumps(document)
+
+
+def exr_values(path):
+    """All samples of a scan line EXR of 32-bit floats in blocks of 16 lines, zip compressed, as atrium-cli writes it."""
+    with open(path, "rb") as f:
+        data = f.read()
+    at, header = 8, {}
+    while data[at]:
+        name, kind, rest = data[at:].split(b"\0", 2)
+        at += len(name) + len(kind) + 2
+        size = struct.unpack_from("<i", data, at)[0]
+        header[name] = data[at + 4:at + 4 + size]
+        at += 4 + size
+    assert header[b"compression"] == b"\3", "zip"
+    lines = struct.unpack("<4i", header[b"dataWindow"])[3] + 1
+    blocks = (lines + 15) // 16
+    values = []
+    for offset in struct.unpack_from("<%dQ" % blocks, data, at + 1):
+        size = struct.unpack_from("<i", data, offset + 4)[0]
+        raw = bytearray(zlib.decompress(data[offset + 8:offset + 8 + size]))
+        for i in range(1, len(raw)):  # differences of bytes, lower and upper halves apart
+            raw[i] = (raw[i - 1] + raw[i] - 128) & 0xFF
+        half = (len(raw) + 1) // 2
+        plain = bytearray(len(raw))
+        plain[0::2], plain[1::2] = raw[:half], raw[half:]
+        values.extend(struct.unpack("<%df" % (len(plain) // 4), plain))
+    return values
 
 
 class CliTest(unittest.TestCase):

@@ -3,6 +3,7 @@
 
 #include "engine/scene/scene.h"
 #include "engine/solver/gi_engine.h"
+#include "tests/support/light_maps.h"
 
 #include <array>
 

@@ -49,12 +49,20 @@ Scene furnished(float rho = 0.6F) {
     return scene;
 }
 
+bool same(const std::shared_ptr<const LightMap>& a, const std::shared_ptr<const LightMap>& b) {
+    return a && b ? *a == *b : a == b;
+}
+
 void expect_same_light(const Solution& a, const Solution& b, const std::string& what) {
     ASSERT_EQ(a.surfaces.size(), b.surfaces.size()) << what;
     for (std::size_t i = 0; i < a.surfaces.size(); ++i) {
         EXPECT_TRUE(*a.surfaces[i]->mesh == *b.surfaces[i]->mesh) << what << ", mesh of surface " << i;
         EXPECT_TRUE(a.surfaces[i]->irradiance_front == b.surfaces[i]->irradiance_front) << what << ", surface " << i;
         EXPECT_TRUE(a.surfaces[i]->irradiance_back == b.surfaces[i]->irradiance_back) << what << ", surface " << i;
+        EXPECT_TRUE(a.surfaces[i]->direct_front == b.surfaces[i]->direct_front) << what << ", surface " << i;
+        EXPECT_TRUE(a.surfaces[i]->direct_back == b.surfaces[i]->direct_back) << what << ", surface " << i;
+        EXPECT_TRUE(same(a.surfaces[i]->direct_map_front, b.surfaces[i]->direct_map_front)) << what << ", surface " << i;
+        EXPECT_TRUE(same(a.surfaces[i]->direct_map_back, b.surfaces[i]->direct_map_back)) << what << ", surface " << i;
     }
     EXPECT_EQ(a.mean_radiance, b.mean_radiance) << what;
     EXPECT_EQ(a.statistics.iterations, b.statistics.iterations) << what;
@@ -65,8 +73,9 @@ void expect_same_light(const Solution& a, const Solution& b, const std::string& 
 double largest(const Solution& solution) {
     double out = 0.0;
     for (const auto& layer : solution.surfaces) {
-        for (const auto* light : {&layer->irradiance_front, &layer->irradiance_back}) {
-            for (const Rgb& e : *light) {
+        for (const bool back : {false, true}) {
+            for (std::size_t i = 0; i < (back ? layer->irradiance_back : layer->irradiance_front).size(); ++i) {
+                const Rgb e = light_on(*layer, i, back);
                 EXPECT_TRUE(is_finite(e));
                 out = std::max(out, double(max_component(e)));
             }

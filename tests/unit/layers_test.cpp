@@ -167,11 +167,16 @@ TEST(Layers, IndicesNormalsAndLightAreValid) {
         EXPECT_EQ(mesh.normals.size(), n);
         EXPECT_EQ(layer->irradiance_front.size(), n);
         EXPECT_TRUE(layer->irradiance_back.empty() || layer->irradiance_back.size() == n);
+        for (const auto* direct : {&layer->direct_front, &layer->direct_back}) {
+            EXPECT_TRUE(direct->empty() || direct->size() == n);
+        }
+        EXPECT_TRUE(mesh.light_uv.empty() || mesh.light_uv.size() == n);
         EXPECT_TRUE(mesh.texcoords0.empty() || mesh.texcoords0.size() == n);
         for (std::size_t i = 0; i < n; ++i) {
             EXPECT_NEAR(glm::length(mesh.normals[i]), 1.0F, 1e-3F) << name;
         }
-        for (const auto* light : {&layer->irradiance_front, &layer->irradiance_back}) {
+        for (const auto* light :
+             {&layer->irradiance_front, &layer->irradiance_back, &layer->direct_front, &layer->direct_back}) {
             for (const Rgb& e : *light) {
                 EXPECT_TRUE(is_finite(e)) << name;
                 EXPECT_TRUE(e.r >= 0 && e.g >= 0 && e.b >= 0) << name;
@@ -233,7 +238,7 @@ TEST(Layers, CoveredFloorTakesTheLightAroundItsBox) {
         for (std::size_t i = 0; i < layer->mesh->positions.size(); ++i) {
             const dvec3 p(world * dvec4(dvec3(layer->mesh->positions[i]), 1.0));
             const double dx = std::abs(p.x - 1.1) - 0.3, dz = std::abs(p.z - 1.3) - 0.35;
-            const double e = luminance(layer->irradiance_front[i]);
+            const double e = luminance(light_on(*layer, i));
             EXPECT_TRUE(std::isfinite(e));
             if (std::max(dx, dz) > 0.0 && std::max(dx, dz) < 0.15) {
                 // What the room itself gives at the vertex, without its mesh.

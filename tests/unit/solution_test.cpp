@@ -14,6 +14,20 @@ namespace {
 using namespace test;
 using Quality = SolverSettings::Quality;
 
+/// Maps are stored to a thousandth.
+bool same_map(const std::shared_ptr<const LightMap>& a, const std::shared_ptr<const LightMap>& b) {
+    if (!a || !b) {
+        return a == b;
+    }
+    bool same = a->tiles == b->tiles && a->image.size() == b->image.size();
+    for (std::size_t i = 0; same && i < a->image.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            same = same && std::abs(a->image[i][c] - b->image[i][c]) <= 1e-3F * std::abs(a->image[i][c]) + 1e-6F;
+        }
+    }
+    return same;
+}
+
 bool same_layers(const Solution& a, const Solution& b) {
     if (a.surfaces.size() != b.surfaces.size()) {
         return false;
@@ -21,7 +35,8 @@ bool same_layers(const Solution& a, const Solution& b) {
     for (std::size_t i = 0; i < a.surfaces.size(); ++i) {
         const SurfaceLayer &x = *a.surfaces[i], &y = *b.surfaces[i];
         if (x.node != y.node || x.part != y.part || !(*x.mesh == *y.mesh) || x.irradiance_front != y.irradiance_front ||
-            x.irradiance_back != y.irradiance_back) {
+            x.irradiance_back != y.irradiance_back || x.direct_front != y.direct_front || x.direct_back != y.direct_back ||
+            !same_map(x.direct_map_front, y.direct_map_front) || !same_map(x.direct_map_back, y.direct_map_back)) {
             return false;
         }
     }

@@ -57,6 +57,8 @@ const std::array kTable = {
     ActionInfo{ActionId::ExposureReset, "exposure_reset", ATRIUM_TEXT("Automatic &Exposure"), "Ctrl+0", "", ATRIUM_TEXT("Go back to automatic exposure")},
     ActionInfo{ActionId::Wireframe, "wireframe", ATRIUM_TEXT("Wire&frame"), "Z", "wireframe", ATRIUM_TEXT("Draw the edges of the light mesh over the picture"), true},
     ActionInfo{ActionId::CutWalls, "cut_walls", ATRIUM_TEXT("&Look through Near Walls"), "", "", ATRIUM_TEXT("From outside, leave out the walls and the ceiling that hide the room"), true},
+    ActionInfo{ActionId::ShowDirect, "show_direct", ATRIUM_TEXT("D&irect Light"), "Ctrl+1", "", ATRIUM_TEXT("Show the light that comes straight from lamps, sun and sky"), true},
+    ActionInfo{ActionId::ShowDiffuse, "show_diffuse", ATRIUM_TEXT("Diff&use Light"), "Ctrl+2", "", ATRIUM_TEXT("Show the light that other surfaces reflect"), true},
     ActionInfo{ActionId::StopLight, "stop_light", ATRIUM_TEXT("&Stop"), "Ctrl+.", "stop", ATRIUM_TEXT("Stop computing light; the last picture stays")},
     ActionInfo{ActionId::ResumeLight, "resume_light", ATRIUM_TEXT("&Resume"), "Ctrl+R", "resume", ATRIUM_TEXT("Compute the light of the present scene")},
     ActionInfo{ActionId::Commands, "commands", ATRIUM_TEXT("&Find Command..."), "Ctrl+K", "search", ATRIUM_TEXT("Find a command by typing its name")},

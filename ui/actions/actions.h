@@ -53,6 +53,8 @@ enum class ActionId : std::uint8_t {
     ExposureReset,
     Wireframe,
     CutWalls,
+    ShowDirect,
+    ShowDiffuse,
     StopLight,
     ResumeLight,
     Commands,

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <unordered_set>
 
 namespace atrium::ui {
 namespace {
 
 constexpr int kProbeSize = 128;
 constexpr int kProbeLevels = 6;
+
+/// Light maps of a solution that is not shown yet: no further one is begun after this many milliseconds.
+constexpr int kUploadAheadMs = 5;
 
 /// Flat mirrors with a true picture in one frame; each costs a second drawing of the scene.
 constexpr int kMirrors = 2;
@@ -92,7 +96,14 @@ bool GpuScene::initialize(Gl& gl) {
     gl.glBindTexture(GL_TEXTURE_2D, white_);
     gl.glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
     gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    light_maps_.initialize(gl);
     return true;
+}
+
+void GpuScene::forget(const Geometry& geometry) {
+    gl_->glDeleteBuffers(1, &geometry.vertices);
+    gl_->glDeleteBuffers(1, &geometry.indices);
+    gl_->glDeleteBuffers(1, &geometry.light_uv);
 }
 
 void GpuScene::release() {
@@ -103,8 +114,7 @@ void GpuScene::release() {
         gl_->glDeleteVertexArrays(1, &array.vao);
     }
     for (auto& [key, geometry] : geometries_) {
-        gl_->glDeleteBuffers(1, &geometry.vertices);
-        gl_->glDeleteBuffers(1, &geometry.indices);
+        forget(geometry);
     }
     for (auto& [key, lighting] : lightings_) {
         gl_->glDeleteBuffers(1, &lighting.values);
@@ -113,6 +123,8 @@ void GpuScene::release() {
     geometries_.clear();
     lightings_.clear();
     textures_.release(*gl_);
+    light_maps_.release(*gl_);
+    awaited_.clear();
     gl_->glDeleteTextures(1, &white_);
     gl_->glDeleteTextures(1, &probe_.texture);
     gl_->glDeleteTextures(1, &next_probe_.texture);
@@ -140,8 +152,36 @@ unsigned GpuScene::variant_of(const ViewItem& item) {
     }
     if (!lit) {
         out |= Headlight;
+    } else if (shares_.direct && !item.mesh->light_uv.empty()) {
+        const bool front = light_maps_.get(*gl_, item.layer->direct_map_front) != nullptr;
+        const bool back =
+            item.layer->has_back() && m.double_sided && light_maps_.get(*gl_, item.layer->direct_map_back) != nullptr;
+        out |= front || back ? Mapped : 0U;
     }
     return out;
+}
+
+bool GpuScene::upload_ahead(const Solution& solution) {
+    awaited_.clear();
+    for (const auto& layer : solution.surfaces) {
+        for (const auto& map : {layer->direct_map_front, layer->direct_map_back}) {
+            if (map) {
+                awaited_.push_back(map);
+            }
+        }
+    }
+    QElapsedTimer clock;
+    clock.start();
+    return std::all_of(awaited_.begin(), awaited_.end(), [&](const auto& map) {
+        return light_maps_.ready(*map) || (clock.elapsed() < kUploadAheadMs && light_maps_.upload_some(*gl_, map));
+    });
+}
+
+bool GpuScene::uploaded(const Solution& solution) const {
+    return std::all_of(solution.surfaces.begin(), solution.surfaces.end(), [this](const auto& layer) {
+        return (!layer->direct_map_front || light_maps_.ready(*layer->direct_map_front)) &&
+               (!layer->direct_map_back || light_maps_.ready(*layer->direct_map_back));
+    });
 }
 
 bool GpuScene::compile(unsigned variant) {
@@ -151,6 +191,7 @@ bool GpuScene::compile(unsigned variant) {
         defines += (variant & Specular) != 0 ? "#define SPECULAR\n" : "";
         defines += (variant & Headlight) != 0 ? "#define HEADLIGHT\n" : "";
         defines += (variant & Cut) != 0 ? "#define CUT\n" : "";
+        defines += (variant & Mapped) != 0 ? "#define LIGHT_MAP\n" : "";
         surface_[variant].program = load_program("surface.vert", "surface.frag", defines);
     }
     return surface_[variant].program != nullptr;
@@ -164,6 +205,10 @@ void GpuScene::begin(unsigned variant, const DrawView& from) {
     gl.glUniform1i(p.at("u_base_texture"), 0);
     gl.glUniform1i(p.at("u_emissive_texture"), 1);
     gl.glUniform1i(p.at("u_probe"), 2);
+    if ((variant & Mapped) != 0) {
+        gl.glUniform1i(p.at("u_map"), 3);
+        gl.glUniform1i(p.at("u_map_tiles"), 4);
+    }
     gl.glUniform1f(p.at("u_exposure"), from.exposure);
     gl.glUniform4f(p.at("u_clip"), from.clip.x, from.clip.y, from.clip.z, from.clip.w);
     gl.glUniform3f(p.at("u_filter"), from.filter.r, from.filter.g, from.filter.b);
@@ -207,8 +252,7 @@ void GpuScene::collect(const ViewScene& view, const Scene& scene) {
     std::erase_if(geometries_, [&](auto& entry) {
         const bool gone = !meshes.contains(entry.first);
         if (gone) {
-            gl_->glDeleteBuffers(1, &entry.second.vertices);
-            gl_->glDeleteBuffers(1, &entry.second.indices);
+            forget(entry.second);
         }
         return gone;
     });
@@ -219,6 +263,17 @@ void GpuScene::collect(const ViewScene& view, const Scene& scene) {
         }
         return gone;
     });
+    std::unordered_set<const LightMap*> maps;
+    for (const ViewItem& item : view.items()) {
+        if (item.layer) {
+            maps.insert(item.layer->direct_map_front.get());
+            maps.insert(item.layer->direct_map_back.get());
+        }
+    }
+    for (const auto& map : awaited_) {
+        maps.insert(map.get());
+    }
+    light_maps_.collect(*gl_, maps);
     textures_.collect(*gl_, scene);
 }
 
@@ -257,7 +312,28 @@ const GpuScene::Geometry& GpuScene::geometry_of(const ViewItem& item) {
     gl_->glBindBuffer(GL_ARRAY_BUFFER, g.indices);
     gl_->glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(mesh.indices.size() * sizeof(std::uint32_t)), mesh.indices.data(),
                       GL_STATIC_DRAW);
+    if (mesh.light_uv.size() == mesh.positions.size()) {
+        gl_->glGenBuffers(1, &g.light_uv);
+        gl_->glBindBuffer(GL_ARRAY_BUFFER, g.light_uv);
+        gl_->glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(mesh.light_uv.size() * sizeof(vec2)), mesh.light_uv.data(),
+                          GL_STATIC_DRAW);
+    }
     return g;
+}
+
+void GpuScene::set_shares(const LightShares& shares) {
+    if (shares == shares_) {
+        return;
+    }
+    shares_ = shares;
+    for (auto& [key, array] : arrays_) {
+        gl_->glDeleteVertexArrays(1, &array.vao);
+    }
+    arrays_.clear();
+    for (auto& [key, lighting] : lightings_) {
+        gl_->glDeleteBuffers(1, &lighting.values);
+    }
+    lightings_.clear();
 }
 
 const GpuScene::Lighting* GpuScene::lighting_of(const ViewItem& item) {
@@ -272,9 +348,19 @@ const GpuScene::Lighting* GpuScene::lighting_of(const ViewItem& item) {
     const SurfaceLayer& layer = *item.layer;
     l.layer = item.layer;
     l.has_back = layer.irradiance_back.size() >= count;
-    std::vector<Rgb> values(layer.irradiance_front.begin(), layer.irradiance_front.begin() + std::ptrdiff_t(count));
-    if (l.has_back) {
-        values.insert(values.end(), layer.irradiance_back.begin(), layer.irradiance_back.begin() + std::ptrdiff_t(count));
+    std::vector<Rgb> values;
+    values.reserve(l.has_back ? 2 * count : count);
+    for (const bool back : {false, true}) {
+        if (back && !l.has_back) {
+            break;
+        }
+        const auto& map = back ? layer.direct_map_back : layer.direct_map_front;
+        // A map that the driver cannot hold is shown as coarsely as the vertices are.
+        const bool coarse = map && light_maps_.too_large(*map);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            values.push_back(coarse ? irradiance_at(layer, {i, i, i}, vec3(1.0F, 0.0F, 0.0F), back, shares_)
+                                    : vertex_irradiance(layer, i, back, shares_));
+        }
     }
     gl_->glGenBuffers(1, &l.values);
     gl_->glBindBuffer(GL_ARRAY_BUFFER, l.values);
@@ -307,6 +393,13 @@ void GpuScene::bind(const ViewItem& item, const Geometry& geometry, const Lighti
     attribute(2, 2, GL_FLOAT, offsetof(Vertex, uv0));
     attribute(3, 2, GL_FLOAT, offsetof(Vertex, uv1));
     attribute(4, 3, GL_FLOAT, offsetof(Vertex, color));
+    if (geometry.light_uv != 0) {
+        gl_->glBindBuffer(GL_ARRAY_BUFFER, geometry.light_uv);
+        gl_->glEnableVertexAttribArray(7);
+        gl_->glVertexAttribPointer(7, 2, GL_FLOAT, GL_FALSE, sizeof(vec2), nullptr);
+    } else {
+        gl_->glDisableVertexAttribArray(7);
+    }
     for (const GLuint index : {5U, 6U}) {
         const bool present = lighting != nullptr && (index == 5 || lighting->has_back);
         if (!present) {
@@ -345,7 +438,7 @@ void GpuScene::draw_surface(const ViewItem& item, unsigned variant, const Scene&
     gl.glUniformMatrix4fv(at("u_model"), 1, GL_FALSE, &model[0][0]);
     gl.glUniformMatrix3fv(at("u_normal"), 1, GL_FALSE, &normal[0][0]);
     gl.glUniform4f(at("u_base"), m.base_color.r, m.base_color.g, m.base_color.b, m.alpha);
-    const Rgb emitted = m.emitted_radiance();
+    const Rgb emitted = shares_.direct ? m.emitted_radiance() : Rgb(0.0F);
     gl.glUniform3f(at("u_emitted"), emitted.r, emitted.g, emitted.b);
     const auto texture = [&](const TextureRef& ref, int unit, const char* textured, const char* set, const char* row0,
                              const char* row1) {
@@ -376,7 +469,36 @@ void GpuScene::draw_surface(const ViewItem& item, unsigned variant, const Scene&
     gl.glUniform1f(at("u_f0"), f * f);
     gl.glUniform1f(at("u_diffuse_share"), m.metallic + (1.0F - m.metallic) * (1.0F - m.transmission));
     bind(item, geometry, lighting);
-    gl.glDrawElements(GL_TRIANGLES, geometry.count, GL_UNSIGNED_INT, nullptr);
+    if ((variant & Mapped) != 0) {
+        draw_mapped(item, p, geometry, lighting != nullptr && lighting->has_back);
+    } else {
+        gl.glDrawElements(GL_TRIANGLES, geometry.count, GL_UNSIGNED_INT, nullptr);
+    }
+}
+
+void GpuScene::draw_mapped(const ViewItem& item, Program& program, const Geometry& geometry, bool has_back) {
+    Gl& gl = *gl_;
+    const auto draw_with = [&](const std::shared_ptr<const LightMap>& map) {
+        const LightMapCache::Texture* found = light_maps_.get(gl, map);
+        const LightMapCache::Texture& texture = found != nullptr ? *found : light_maps_.dark();
+        gl.glActiveTexture(GL_TEXTURE3);
+        gl.glBindTexture(GL_TEXTURE_2D, texture.image);
+        gl.glActiveTexture(GL_TEXTURE4);
+        gl.glBindTexture(GL_TEXTURE_2D, texture.tiles);
+        gl.glUniform1f(program.at("u_map_scale"), texture.scale);
+        gl.glDrawElements(GL_TRIANGLES, geometry.count, GL_UNSIGNED_INT, nullptr);
+    };
+    const SurfaceLayer& layer = *item.layer;
+    if (!has_back || !item.material->double_sided) {
+        draw_with(layer.direct_map_front);
+        return;
+    }
+    // A side at a time, each with its own map: choosing in the shader would make every fragment pay for both.
+    gl.glEnable(GL_CULL_FACE);
+    gl.glCullFace(GL_FRONT);
+    draw_with(layer.direct_map_back);
+    gl.glCullFace(GL_BACK);
+    draw_with(layer.direct_map_front);
 }
 
 int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& from) {
@@ -385,6 +507,7 @@ int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& fr
     gl.glDepthMask(GL_TRUE);
     gl.glDisable(GL_BLEND);
     gl.glCullFace(GL_BACK);
+    set_shares(from.shares);
 
     const dmat4 view_projection = from.projection * from.rotation;
     struct Visible {
@@ -401,8 +524,11 @@ int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& fr
         if (cut == Cutaway::Part::All) {
             continue;
         }
+        if (out_of_sight(item.bvh->bounds(), mvp, from.window)) {
+            continue;
+        }
         const unsigned variant = variant_of(item) | (cut == Cutaway::Part::Some ? unsigned(Cut) : 0U);
-        if (out_of_sight(item.bvh->bounds(), mvp, from.window) || !compile(variant)) {
+        if (!compile(variant)) {
             continue;
         }
         const dvec3 centre(item.world * dvec4(dvec3(item.bvh->bounds().centre()), 1.0));
@@ -584,7 +710,8 @@ bool GpuScene::begin_probe(const ViewScene& view, const DBox3& room) {
     return true;
 }
 
-void GpuScene::draw_probe_face(const ViewScene& view, const Scene& scene, unsigned face, float exposure) {
+void GpuScene::draw_probe_face(const ViewScene& view, const Scene& scene, unsigned face, float exposure,
+                               const LightShares& shares) {
     Gl& gl = *gl_;
     unsigned framebuffer = 0;
     unsigned depth = 0;
@@ -614,6 +741,7 @@ void GpuScene::draw_probe_face(const ViewScene& view, const Scene& scene, unsign
     from.exposure = exposure;
     from.linear = true;
     from.use_probe = false;
+    from.shares = shares;
     from.rotation = glm::transpose(dmat4(dvec4(right, 0), dvec4(up, 0), dvec4(-ahead, 0), dvec4(0, 0, 0, 1)));
     const double near_plane = 0.02;
     const double far_plane = std::max(2.0 * next_probe_.room.diagonal(), 10.0);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ui/viewport/gl.h"
+#include "ui/viewport/light_map_cache.h"
 #include "ui/viewport/texture_cache.h"
 #include "ui/viewport/view_scene.h"
 
@@ -26,6 +27,7 @@ struct DrawView {
     vec4 window{-1.0F, -1.0F, 1.0F, 1.0F}; ///< what of the view is of use: x and y from, x and y to
     Cutaway cutaway;                       ///< what of the walls is left out
     vec3 filter{1.0F};                     ///< the mirror's reflectance
+    LightShares shares;                    ///< of the light to show; what emits belongs to the direct share
 };
 
 /// Needs the GL context current in every function but the constructor. UI thread only.
@@ -37,9 +39,20 @@ public:
 
     /// Drops buffers that `view` no longer uses. New ones are uploaded when first drawn.
     void collect(const ViewScene& view, const Scene& scene);
-    /// Starts a frame. Textures are uploaded a few a frame: while textures_pending(), the next frame shows more of them.
-    void begin_frame() { textures_.begin_frame(); }
-    [[nodiscard]] bool textures_pending() const { return textures_.pending(); }
+    /// Starts a frame. Textures and light maps are uploaded a few a frame: while uploads_pending(), the next frame shows
+    /// more of them.
+    void begin_frame() {
+        textures_.begin_frame();
+        light_maps_.begin_frame();
+    }
+    [[nodiscard]] bool uploads_pending() const { return textures_.pending() || light_maps_.pending(); }
+    /// Uploads a solution's light maps ahead of its being shown, for a few milliseconds; call until it is true. Those that
+    /// are there are kept until the next call or forget_awaited(), whatever the view shows.
+    bool upload_ahead(const Solution& solution);
+    /// True when upload_ahead() would have nothing to do. Needs no context.
+    [[nodiscard]] bool uploaded(const Solution& solution) const;
+    /// The view shows the awaited solution now, or never will. Needs no context.
+    void forget_awaited() { awaited_.clear(); }
     /// Opaque surfaces, then blended ones from back to front. Returns how many surfaces were drawn.
     int draw(const ViewScene& view, const Scene& scene, const DrawView& from);
     /// Flat silhouettes in one colour of the items that `wanted` accepts.
@@ -53,12 +66,14 @@ public:
     /// False, and no probe any more, when the scene shows nothing specular.
     bool begin_probe(const ViewScene& view, const DBox3& room);
     /// Draws face 0 to 5; after the last one the new probe is in use.
-    void draw_probe_face(const ViewScene& view, const Scene& scene, unsigned face, float exposure);
+    void draw_probe_face(const ViewScene& view, const Scene& scene, unsigned face, float exposure,
+                         const LightShares& shares);
 
 private:
     struct Geometry {
         unsigned vertices = 0;
         unsigned indices = 0;
+        unsigned light_uv = 0; ///< 0 = nothing of it is charted
         int count = 0;
         bool flat = false;                       ///< all in one plane
         vec3 normal{0.0F};                       ///< of that plane
@@ -75,33 +90,41 @@ private:
         const SurfaceLayer* layer = nullptr;
     };
 
-    const Geometry& geometry_of(const ViewItem& item);
-    const Lighting* lighting_of(const ViewItem& item);
-    void bind(const ViewItem& item, const Geometry& geometry, const Lighting* lighting);
-    void draw_surface(const ViewItem& item, unsigned variant, const Scene& scene, const DrawView& from, const mat4& mvp);
-    void set_sides(const ViewItem& item, bool reflected);
-    /// Draws what a flat mirror shows over its surface, through the stencil buffer.
-    void draw_mirror(const ViewItem& item, const ViewScene& view, const Scene& scene, const DrawView& from, const mat4& mvp,
-                     int stencil);
-    void draw_flat(const ViewItem& item, const mat4& mvp, const vec4& color);
-
-    Gl* gl_ = nullptr;
     /// Surface shader compiled for a set of features; locations by the literal's address: no text is hashed per surface.
     struct Program {
         std::unique_ptr<QOpenGLShaderProgram> program;
         std::unordered_map<const char*, int> locations;
         int at(const char* name);
     };
-    enum Feature : unsigned { Textured = 1, Specular = 2, Headlight = 4, Cut = 8, kVariants = 16 };
+
+    const Geometry& geometry_of(const ViewItem& item);
+    const Lighting* lighting_of(const ViewItem& item);
+    void bind(const ViewItem& item, const Geometry& geometry, const Lighting* lighting);
+    void draw_surface(const ViewItem& item, unsigned variant, const Scene& scene, const DrawView& from, const mat4& mvp);
+    void set_sides(const ViewItem& item, bool reflected);
+    void set_shares(const LightShares& shares);
+    /// Draws the bound arrays with the light maps of the sides that are seen.
+    void draw_mapped(const ViewItem& item, Program& program, const Geometry& geometry, bool has_back);
+    void forget(const Geometry& geometry);
+    /// Draws what a flat mirror shows over its surface, through the stencil buffer.
+    void draw_mirror(const ViewItem& item, const ViewScene& view, const Scene& scene, const DrawView& from, const mat4& mvp,
+                     int stencil);
+    void draw_flat(const ViewItem& item, const mat4& mvp, const vec4& color);
+
+    Gl* gl_ = nullptr;
+    enum Feature : unsigned { Textured = 1, Specular = 2, Headlight = 4, Cut = 8, Mapped = 16, kVariants = 32 };
     std::array<Program, kVariants> surface_;
     std::unique_ptr<QOpenGLShaderProgram> mask_;
-    [[nodiscard]] static unsigned variant_of(const ViewItem& item);
+    [[nodiscard]] unsigned variant_of(const ViewItem& item);
     bool compile(unsigned variant);
     void begin(unsigned variant, const DrawView& from);
     std::unordered_map<const DisplayMesh*, Geometry> geometries_;
     std::unordered_map<const SurfaceLayer*, Lighting> lightings_;
     std::map<std::pair<NodeId, std::uint32_t>, Array> arrays_;
     TextureCache textures_;
+    LightMapCache light_maps_;
+    std::vector<std::shared_ptr<const LightMap>> awaited_; ///< of the solution that is shown next
+    LightShares shares_;                                   ///< in the vertices' values
     unsigned white_ = 0;
 
     struct Probe {

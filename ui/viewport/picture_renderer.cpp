@@ -74,6 +74,7 @@ void PictureRenderer::paint(const FrameInput& in) {
     from.eye = in.camera.eye();
     from.exposure = in.exposure;
     from.cutaway = in.view.cutaway();
+    from.shares = in.shares;
     const int samples = software_ && !in.refine ? 0 : kSamples;
     const bool resized = picture_.width() != in.width || picture_.height() != in.height;
     if (!picture_good_ || resized || samples > picture_samples_) {
@@ -90,7 +91,7 @@ void PictureRenderer::paint(const FrameInput& in) {
     draw_overlay(in);
 }
 
-bool PictureRenderer::step_probe(const ViewScene& view, const Scene& scene, float exposure) {
+bool PictureRenderer::step_probe(const ViewScene& view, const Scene& scene, float exposure, const LightShares& shares) {
     if (gl_ == nullptr || probe_face_ >= kProbeFaces) {
         return false;
     }
@@ -98,7 +99,7 @@ bool PictureRenderer::step_probe(const ViewScene& view, const Scene& scene, floa
         probe_face_ = kProbeFaces;
         return false;
     }
-    gpu_.draw_probe_face(view, scene, probe_face_++, exposure);
+    gpu_.draw_probe_face(view, scene, probe_face_++, exposure, shares);
     if (probe_face_ == kProbeFaces) {
         invalidate_picture();
         return false;
@@ -137,7 +138,7 @@ void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, i
         picture_milliseconds_ = double(clock.nsecsElapsed()) * 1e-6;
     }
     picture_samples_ = samples;
-    picture_good_ = !gpu_.textures_pending();
+    picture_good_ = !gpu_.uploads_pending();
     ++pictures_drawn_;
 }
 

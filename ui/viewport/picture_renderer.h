@@ -17,6 +17,7 @@ struct FrameInput {
     const std::unordered_set<NodeId>& selected; ///< with everything below them
     const std::unordered_set<NodeId>& hovered;
     float exposure = 1.0F; ///< factor on radiance
+    LightShares shares;    ///< of the light to show
     bool wireframe = false;
     bool refine = false; ///< smooth edges where the interactive picture goes without
     int width = 1;       ///< device pixels
@@ -39,7 +40,14 @@ public:
     void paint(const FrameInput& in);
 
     /// Does a part of the work on the reflection probe; call until it returns false.
-    bool step_probe(const ViewScene& view, const Scene& scene, float exposure);
+    bool step_probe(const ViewScene& view, const Scene& scene, float exposure, const LightShares& shares);
+
+    /// Uploads a solution's light maps before it is shown, a few milliseconds at a time; true when all are there.
+    bool upload_ahead(const Solution& solution) { return gl_ == nullptr || gpu_.upload_ahead(solution); }
+    /// True when nothing of it is left to be uploaded ahead. Needs no context.
+    [[nodiscard]] bool uploaded(const Solution& solution) const { return gl_ == nullptr || gpu_.uploaded(solution); }
+    /// Nothing is awaited any more. Needs no context.
+    void forget_awaited() { gpu_.forget_awaited(); }
 
     /// True on a software rasteriser, where the interactive picture has no smoothed edges.
     [[nodiscard]] bool software() const { return software_; }

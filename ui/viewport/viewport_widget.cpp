@@ -45,7 +45,8 @@ struct ViewportWidget::Impl : ToolHost {
     Gl* gl = nullptr;
     OverlayBatch overlay;
     std::vector<Marker> markers;
-    std::shared_ptr<const Solution> solution;
+    std::shared_ptr<const Solution> solution; ///< shown
+    std::shared_ptr<const Solution> awaited;  ///< shown as soon as its light maps are uploaded
 
     std::array<std::unique_ptr<Tool>, 4> tools;
     ToolKind tool_kind = ToolKind::Select;
@@ -54,6 +55,7 @@ struct ViewportWidget::Impl : ToolHost {
     bool mean_is_final = false;
     bool wireframe = false;
     bool cut_walls = true;
+    LightShares shares;
     bool refine = false;
     bool items_dirty = true;
     bool markers_dirty = true;
@@ -71,6 +73,7 @@ struct ViewportWidget::Impl : ToolHost {
     QTimer pending_timer;
     QTimer refine_timer;
     QTimer probe_timer;
+    QTimer upload_timer;
     QMetaObject::Connection context_gone;
 
     bool walking = false;
@@ -90,8 +93,11 @@ struct ViewportWidget::Impl : ToolHost {
         refine_timer.setSingleShot(true);
         refine_timer.setInterval(kRefineAfterMs);
         probe_timer.setSingleShot(true);
+        upload_timer.setSingleShot(true);
+        upload_timer.setInterval(0);
         walk_timer.setInterval(kWalkTickMs);
         QObject::connect(&probe_timer, &QTimer::timeout, &widget, [this] { step_probe(); });
+        QObject::connect(&upload_timer, &QTimer::timeout, &widget, [this] { step_upload(); });
         QObject::connect(&pending_timer, &QTimer::timeout, &widget, [this] { flush(); });
         QObject::connect(&refine_timer, &QTimer::timeout, &widget, [this] {
             refine = true;
@@ -158,7 +164,7 @@ struct ViewportWidget::Impl : ToolHost {
         }
         sync();
         widget.makeCurrent();
-        const bool more = renderer.step_probe(view, doc.scene(), scale());
+        const bool more = renderer.step_probe(view, doc.scene(), scale(), shares);
         widget.doneCurrent();
         if (more) {
             probe_timer.start(0);
@@ -196,6 +202,7 @@ struct ViewportWidget::Impl : ToolHost {
         cancel();
         view.clear();
         solution.reset();
+        stop_awaiting();
         mean_radiance = 0;
         mean_is_final = false;
         set_hovered({});
@@ -216,8 +223,37 @@ struct ViewportWidget::Impl : ToolHost {
         }
         controller.set_camera(initial_view(doc.scene()));
     }
+    void stop_awaiting() {
+        upload_timer.stop();
+        awaited.reset();
+        renderer.forget_awaited();
+    }
+    /// The old light stays until the new one's maps are uploaded, a slice in each turn of the event loop: a wall that waits
+    /// for its sun would flicker.
     void take_solution() {
-        solution = engine.solution();
+        awaited = engine.solution();
+        if (!awaited || renderer.uploaded(*awaited)) {
+            show_awaited();
+        } else {
+            upload_timer.start();
+        }
+    }
+    void step_upload() {
+        if (!awaited) {
+            return;
+        }
+        widget.makeCurrent();
+        const bool done = renderer.upload_ahead(*awaited);
+        widget.doneCurrent();
+        if (done) {
+            show_awaited();
+        } else {
+            upload_timer.start();
+        }
+    }
+    void show_awaited() {
+        solution = std::move(awaited);
+        stop_awaiting();
         if (solution && solution->mean_radiance > 0.0) {
             // The picture must not pump while one edits: the mean is taken over while the first picture converges,
             // and afterwards only when the light has changed out of all proportion.
@@ -488,6 +524,15 @@ void ViewportWidget::set_cut_walls(bool on) {
     }
 }
 
+void ViewportWidget::set_light_shares(const LightShares& shares) {
+    if (!(shares == impl_->shares)) {
+        impl_->shares = shares;
+        impl_->probe_changed();
+        impl_->picture_changed();
+    }
+}
+LightShares ViewportWidget::light_shares() const { return impl_->shares; }
+
 ViewCamera ViewportWidget::camera() const {
     ViewCamera out = impl_->controller.camera();
     out.lens.exposure_ev = impl_->exposure_ev;
@@ -562,6 +607,7 @@ void ViewportWidget::paintGL() {
                   impl_->selected,
                   impl_->hovered,
                   impl_->scale(),
+                  impl_->shares,
                   impl_->wireframe,
                   impl_->refine,
                   std::max(1, int(std::lround(width() * ratio))),

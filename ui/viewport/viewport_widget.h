@@ -31,6 +31,8 @@ public:
     [[nodiscard]] float exposure() const;
     void set_wireframe(bool on); ///< the display mesh's edges over the picture
     void set_cut_walls(bool on); ///< from outside, leave out the walls and the ceiling in front of the room (the default)
+    void set_light_shares(const LightShares& shares); ///< what of the light is shown; all by default
+    [[nodiscard]] LightShares light_shares() const;
     [[nodiscard]] ViewCamera camera() const; ///< as seen now, for "export picture"
     void set_camera(const ViewCamera& camera);
     /// Point on the floor or nearest surface in the middle of the view: where new objects are placed, world metres.

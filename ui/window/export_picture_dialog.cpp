@@ -17,9 +17,10 @@
 namespace atrium::ui {
 
 ExportPictureDialog::ExportPictureDialog(Scene scene, std::shared_ptr<const Solution> solution, ViewCamera camera,
-                                         float exposure, const QString& suggestion, QWidget* parent)
+                                         float exposure, const LightShares& shares, const QString& suggestion,
+                                         QWidget* parent)
     : QDialog(parent), scene_(std::move(scene)), solution_(std::move(solution)), camera_(std::move(camera)),
-      exposure_(exposure), suggestion_(suggestion), fraction_(std::make_shared<std::atomic<double>>(0.0)) {
+      exposure_(exposure), shares_(shares), suggestion_(suggestion), fraction_(std::make_shared<std::atomic<double>>(0.0)) {
     setWindowTitle(tr("Export Picture"));
     auto* layout = new QVBoxLayout(this);
     auto* form = new QFormLayout;
@@ -37,6 +38,11 @@ ExportPictureDialog::ExportPictureDialog(Scene scene, std::shared_ptr<const Solu
     samples_ = number(tr("Samples per pixel side"), 2, 1, 8, {});
     layout->addLayout(form);
     auto* note = new QLabel(tr("PNG is shown as in the view; EXR holds linear values in cd/m\u00b2."));
+    if (!(shares_ == LightShares{})) {
+        note->setText(
+            note->text() + QLatin1Char('\n') +
+            (shares_.direct ? tr("Only direct light, as in the view.") : tr("Only diffuse light, as in the view.")));
+    }
     note->setEnabled(false);
     layout->addWidget(note);
     bar_ = new QProgressBar;
@@ -86,6 +92,7 @@ void ExportPictureDialog::render(const QString& path) {
     options.width = int(width_->value());
     options.height = int(height_->value());
     options.samples_per_axis = int(samples_->value());
+    options.shares = shares_;
     RunContext context;
     stop_ = StopFlag();
     context.stop = stop_;

@@ -21,9 +21,9 @@ class NumberField;
 class ExportPictureDialog : public QDialog {
     Q_OBJECT
 public:
-    /// `exposure` in stops over automatic exposure, for PNG; EXR is linear cd/m2.
+    /// `exposure` in stops over automatic exposure, for PNG; EXR is linear cd/m2. `shares` of the light, as in the view.
     ExportPictureDialog(Scene scene, std::shared_ptr<const Solution> solution, ViewCamera camera, float exposure,
-                        const QString& suggestion, QWidget* parent);
+                        const LightShares& shares, const QString& suggestion, QWidget* parent);
     ~ExportPictureDialog() override;
     void render(const QString& path); ///< with the settings shown; closes the dialog when the file is written
 
@@ -36,6 +36,7 @@ private:
     std::shared_ptr<const Solution> solution_;
     ViewCamera camera_;
     float exposure_;
+    LightShares shares_;
     QString suggestion_;
     NumberField* width_ = nullptr;
     NumberField* height_ = nullptr;

@@ -236,9 +236,10 @@ void MainWindow::make_menus() {
     fill(tr("&Add"), {ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder, ActionId::AddCone,
                       ActionId::AddDisc, gap, ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight,
                       ActionId::AddSun, ActionId::AddDaylight, gap, ActionId::AddCamera});
-    auto* view = fill(tr("&View"),
-                      {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap, ActionId::ExposureUp,
-                       ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::Wireframe, ActionId::CutWalls, gap});
+    auto* view =
+        fill(tr("&View"), {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap, ActionId::ExposureUp,
+                           ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::ShowDirect, ActionId::ShowDiffuse,
+                           gap, ActionId::Wireframe, ActionId::CutWalls, gap});
     docks_menu_ = view->addMenu(tr("&Panels"));
     const QList<QDockWidget*> docks = findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly);
     for (QDockWidget* dock : docks) {
@@ -418,6 +419,25 @@ void MainWindow::connect_view() {
     connect((*actions_)[ActionId::Wireframe], &QAction::toggled, viewport_, &ViewportWidget::set_wireframe);
     (*actions_)[ActionId::CutWalls]->setChecked(true);
     connect((*actions_)[ActionId::CutWalls], &QAction::toggled, viewport_, &ViewportWidget::set_cut_walls);
+    QAction* direct = (*actions_)[ActionId::ShowDirect];
+    QAction* diffuse = (*actions_)[ActionId::ShowDiffuse];
+    direct->setChecked(Settings().light_shares().direct);
+    diffuse->setChecked(Settings().light_shares().diffuse);
+    viewport_->set_light_shares(Settings().light_shares());
+    const auto show_shares = [this, direct, diffuse](QAction* other) {
+        if (!direct->isChecked() && !diffuse->isChecked()) {
+            other->setChecked(true); // a black picture shows nothing; this comes back here
+            return;
+        }
+        const LightShares shares{diffuse->isChecked(), direct->isChecked()};
+        viewport_->set_light_shares(shares);
+        Settings().set_light_shares(shares);
+        say(shares == LightShares{}
+                ? tr("All light is shown.")
+                : (shares.direct ? tr("Only direct light is shown.") : tr("Only diffuse light is shown.")));
+    };
+    connect(direct, &QAction::toggled, this, [show_shares, diffuse] { show_shares(diffuse); });
+    connect(diffuse, &QAction::toggled, this, [show_shares, direct] { show_shares(direct); });
     connect(viewport_, &ViewportWidget::message, this, &MainWindow::say);
     on(ActionId::StopLight, [this] { engine_->cancel(); });
     on(ActionId::ResumeLight, [this] { engine_->resume(); });
@@ -492,6 +512,7 @@ void MainWindow::export_picture() {
     const Settings settings;
     const QString base = document_.path().isEmpty() ? tr("Untitled") : QFileInfo(document_.path()).completeBaseName();
     auto* dialog = new ExportPictureDialog(document_.scene(), solution, viewport_->camera(), viewport_->exposure(),
+                                           viewport_->light_shares(),
                                            settings.last_folder() + QLatin1Char('/') + base + QStringLiteral(".png"), this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &ExportPictureDialog::message, this, &MainWindow::say);

@@ -13,6 +13,8 @@ const QString kGeometry = QStringLiteral("window/geometry");
 const QString kLayout = QStringLiteral("window/layout1"); // the number rises when the docks change
 const QString kRecent = QStringLiteral("files/recent");
 const QString kFolder = QStringLiteral("files/folder");
+const QString kDirect = QStringLiteral("view/direct_light");
+const QString kDiffuse = QStringLiteral("view/diffuse_light");
 } // namespace
 
 QByteArray Settings::geometry() const { return QSettings().value(kGeometry).toByteArray(); }
@@ -48,5 +50,17 @@ QString Settings::last_folder() const {
 }
 
 void Settings::set_last_folder(const QString& folder) { QSettings().setValue(kFolder, folder); }
+
+LightShares Settings::light_shares() const {
+    const QSettings settings;
+    const LightShares shares{settings.value(kDiffuse, true).toBool(), settings.value(kDirect, true).toBool()};
+    return shares.diffuse || shares.direct ? shares : LightShares{};
+}
+
+void Settings::set_light_shares(const LightShares& shares) {
+    QSettings settings;
+    settings.setValue(kDirect, shares.direct);
+    settings.setValue(kDiffuse, shares.diffuse);
+}
 
 } // namespace atrium::ui

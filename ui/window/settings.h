@@ -1,5 +1,7 @@
-// What the editor remembers between runs: window layout and recent files. Nothing of the document.
+// What the editor remembers between runs: window layout, recent files and the light shown. Nothing of the document.
 #pragma once
+
+#include "engine/layers/surface_layer.h"
 
 #include <QByteArray>
 #include <QString>
@@ -18,6 +20,8 @@ public:
     void remove_recent(const QString& path);
     [[nodiscard]] QString last_folder() const;
     void set_last_folder(const QString& folder);
+    [[nodiscard]] LightShares light_shares() const; ///< what the view shows of the light; never nothing
+    void set_light_shares(const LightShares& shares);
 };
 
 } // namespace atrium::ui
