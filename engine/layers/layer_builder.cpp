@@ -39,6 +39,10 @@ public:
                 break;
             }
         }
+        if (complete && field_.prepare) {
+            sample_reflected_anew();
+            complete = !context_.should_stop();
+        }
         LayerSet out = finish();
         out.complete = complete;
         return out;
@@ -156,7 +160,41 @@ private:
         }
     }
 
+    bool prepare(const std::vector<Request>& requests) const {
+        if (!field_.prepare) {
+            return true;
+        }
+        std::vector<SurfacePoint> points;
+        points.reserve(requests.size());
+        for (const Request& r : requests) {
+            const LightVertex& v = *r.vertex;
+            points.push_back({sample_position(v, v.normal), v.normal});
+            if (v.wants_back) {
+                points.push_back({sample_position(v, -v.normal), -v.normal});
+            }
+        }
+        return field_.prepare(points);
+    }
+
+    // The field may have got finer since a vertex was sampled.
+    void sample_reflected_anew() {
+        for (NodeMesh& mesh : meshes_) {
+            parallel_chunks(mesh.vertices.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
+                for (std::size_t i = begin; i < end && !context_.should_stop(); ++i) {
+                    LightVertex& v = mesh.vertices[i];
+                    v.front = field_.reflected(sample_position(v, v.normal), v.normal);
+                    if (v.wants_back) {
+                        v.back = field_.reflected(sample_position(v, -v.normal), -v.normal);
+                    }
+                }
+            });
+        }
+    }
+
     bool sample(const std::vector<Request>& requests, double from, double to) {
+        if (!prepare(requests)) {
+            return false;
+        }
         // In slices, so that progress can be told between parallel loops.
         const std::size_t slice = std::max<std::size_t>(requests.size() / 20 + 1, 256);
         for (std::size_t start = 0; start < requests.size(); start += slice) {

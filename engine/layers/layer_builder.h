@@ -5,6 +5,7 @@
 #include "engine/geometry/surface_charts.h"
 #include "engine/layers/surface_layer.h"
 #include "engine/radiosity/direct_light.h"
+#include "engine/radiosity/hierarchy.h"
 
 #include <functional>
 #include <memory>
@@ -23,6 +24,8 @@ struct LayerSettings {
 
 /// The light field that is sampled: irradiance at a point (engine coordinates) with unit normal. Called from many threads.
 struct LightField {
+    /// Told of the points before reflected() is asked for them, on the engine thread; false when stopped. May be empty.
+    std::function<bool(std::span<const SurfacePoint> points)> prepare;
     std::function<DirectSample(const vec3& point, const vec3& normal)> reflected; ///< from other surfaces
     std::function<DirectSample(const vec3& point, const vec3& normal)> direct;    ///< from lamps, sun and sky
 };

@@ -46,8 +46,8 @@ IndirectGather::IndirectGather(const Hierarchy& solved, const RayScene& rays, Le
       bright_gather_(bright_tree_, rays), offset_(std::clamp(1e-5F * rays.bounds().diagonal(), 1e-6F, 1e-3F)),
       directions_(cosine_directions()) {}
 
-// Radiosity that arrives along a ray, glass in between included.
-Rgb IndirectGather::along(vec3 origin, const vec3& direction) const {
+Rgb IndirectGather::along(vec3 origin, const vec3& direction, float& distance) const {
+    distance = std::numeric_limits<float>::infinity();
     Rgb sum(0.0F);
     Rgb through(1.0F);
     for (int crossing = 0; crossing < kMostPanes; ++crossing) {
@@ -55,6 +55,7 @@ Rgb IndirectGather::along(vec3 origin, const vec3& direction) const {
         if (!hit) {
             break;
         }
+        distance = crossing == 0 ? hit.t : distance;
         const std::uint32_t leaf = h_.leaf_at(hit.surface, hit.triangle, !hit.front, hit.barycentric);
         if (leaf != Element::kNone && bright_[leaf] == 0) {
             sum += through * h_.elements[leaf].radiosity;
@@ -68,13 +69,16 @@ Rgb IndirectGather::along(vec3 origin, const vec3& direction) const {
     return sum;
 }
 
-DirectSample IndirectGather::irradiance(const vec3& point, const vec3& normal, const IndirectSettings& settings) const {
-    DirectSample out;
+FieldSample IndirectGather::irradiance(const vec3& point, const vec3& normal, const IndirectSettings& settings) const {
+    FieldSample out;
+    out.distance = std::numeric_limits<float>::infinity();
     if (h_.empty()) {
         return out;
     }
     if (!bright_tree_.empty()) {
-        out = bright_gather_.irradiance(point, normal, settings.bright);
+        const DirectSample bright = bright_gather_.irradiance(point, normal, settings.bright);
+        out.irradiance = bright.irradiance;
+        out.variance = bright.variance;
     }
     vec3 t;
     vec3 b;
@@ -83,12 +87,15 @@ DirectSample IndirectGather::irradiance(const vec3& point, const vec3& normal, c
     Rgb sum(0.0F);
     double light = 0.0;
     double light2 = 0.0;
+    double near = 0.0;
     unsigned done = 0;
     unsigned wanted = std::min<unsigned>(settings.rays, kMostRays);
     for (;;) {
         for (; done < wanted; ++done) {
             const vec3& d = directions_[done];
-            const Rgb radiosity = along(origin, t * d.x + b * d.y + normal * d.z);
+            float distance = 0.0F;
+            const Rgb radiosity = along(origin, t * d.x + b * d.y + normal * d.z, distance);
+            near += 1.0 / std::max(double(distance), 1e-6);
             sum += radiosity;
             const double l = luminance(radiosity);
             light += l;
@@ -101,6 +108,7 @@ DirectSample IndirectGather::irradiance(const vec3& point, const vec3& normal, c
         if (done * 2 > std::min<std::size_t>(settings.max_rays, kMostRays) || variance <= level * level) {
             out.irradiance += sum / float(done);
             out.variance += float(variance);
+            out.distance = near > 0.0 ? float(n / near) : out.distance;
             return out;
         }
         wanted = 2 * done;

@@ -2,6 +2,7 @@
 // gathered by name.
 #pragma once
 
+#include "engine/radiosity/irradiance_cache.h"
 #include "engine/radiosity/light_split.h"
 #include "engine/radiosity/point_gather.h"
 
@@ -27,10 +28,11 @@ public:
 
     /// Irradiance from the radiosity of all surfaces (named emitters' own light is not part of it), in lux, with the
     /// variance of its samples. Nearby points err alike, so what is shown is smooth.
-    [[nodiscard]] DirectSample irradiance(const vec3& point, const vec3& normal, const IndirectSettings& settings) const;
+    [[nodiscard]] FieldSample irradiance(const vec3& point, const vec3& normal, const IndirectSettings& settings) const;
 
 private:
-    [[nodiscard]] Rgb along(vec3 origin, const vec3& direction) const;
+    /// Radiosity that arrives along a ray, glass in between included; `distance` of the first hit, infinite without one.
+    [[nodiscard]] Rgb along(vec3 origin, const vec3& direction, float& distance) const;
 
     const Hierarchy& h_;
     const RayScene& rays_;

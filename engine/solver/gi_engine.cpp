@@ -235,13 +235,13 @@ struct GiEngine::Impl {
             leaving += double(e.area) * luminance(e.radiosity) * std::max(1.0 - double(transport.row_sums()[i]), 0.0);
         }
         // What sun, sky and lamps bring in counts where it lands; a lamp's light that lands nowhere has escaped at once.
-        const double lamps = punctual->emitted_flux() + named_flux;
+        const double sent = punctual->emitted_flux() + named_flux;
         bool from_outside = punctual->has_sky();
         for (const PlacedLight& light : punctual->lights()) {
             from_outside = from_outside || light.light.kind == Light::Kind::Directional;
         }
-        const double lost = from_outside ? 0.0 : std::max(lamps - direct_in, 0.0);
-        statistics.energy.emitted = emitted + (from_outside ? direct_in : std::max(lamps, direct_in));
+        const double lost = from_outside ? 0.0 : std::max(sent - direct_in, 0.0);
+        statistics.energy.emitted = emitted + (from_outside ? direct_in : std::max(sent, direct_in));
         statistics.energy.absorbed = absorbed;
         statistics.energy.escaped = leaving + lost;
         statistics.energy.defect =
@@ -370,9 +370,17 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         timer.next("layers");
         s.reflected =
             std::make_unique<IndirectGather>(s.hierarchy, *s.rays, bright_leaves(s.hierarchy, {}, quality.bright_contrast));
-        const LightField light_field{
-            [&](const vec3& p, const vec3& n) { return s.reflected->irradiance(p, n, field.reflected); },
-            [&](const vec3& p, const vec3& n) { return s.direct_light(p, n, field.direct); }};
+        CacheSettings cache_settings = field.cache;
+        cache_settings.light_floor = light_floor;
+        IrradianceCache cache(
+            *s.rays, [&](const vec3& p, const vec3& n) { return s.reflected->irradiance(p, n, field.reflected); },
+            cache_settings);
+        const LightField light_field{[&](std::span<const SurfacePoint> points) { return cache.cover(points, context); },
+                                     [&](const vec3& p, const vec3& n) {
+                                         const FieldSample sample = cache.at(p, n);
+                                         return DirectSample{sample.irradiance, sample.variance};
+                                     },
+                                     [&](const vec3& p, const vec3& n) { return s.direct_light(p, n, field.direct); }};
         LayerSettings settings = wanted;
         settings.light_floor = light_floor;
         const std::vector<std::uint8_t> lit = s.back_lit_surfaces();
@@ -463,7 +471,7 @@ SensorReading GiEngine::gather_free(const dvec3& point, const dvec3& normal) con
     const vec3 at(point - impl_->rays->origin());
     const vec3 unit(glm::normalize(normal));
     const DirectSample direct = impl_->direct_light(at, unit, field.direct);
-    const DirectSample reflected = impl_->reflected->irradiance(at, unit, field.reflected);
+    const FieldSample reflected = impl_->reflected->irradiance(at, unit, field.reflected);
     out.irradiance = direct.irradiance + reflected.irradiance;
     out.standard_error = std::sqrt(direct.variance + reflected.variance);
     return out;

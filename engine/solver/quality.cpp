@@ -21,13 +21,17 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         out.layers.smallest_edge = smallest * unit;
         out.layers.contrast = contrast;
     };
-    const auto look = [](float tolerance, unsigned cut, unsigned rays, unsigned sun, unsigned sky, unsigned hemisphere) {
+    const auto look = [unit](float tolerance, unsigned cut, unsigned rays, unsigned sun, unsigned sky, unsigned hemisphere) {
         FieldSettings f;
         f.direct = {tolerance, cut, rays, sun, sky};
         f.reflected.rays = hemisphere;
         f.reflected.max_rays = 4 * hemisphere;
         f.reflected.tolerance = tolerance;
-        f.reflected.bright = {2.0F * tolerance, cut, rays / 2, 0, 0};
+        f.reflected.bright = {2.0F * tolerance, cut, rays, 0, 0};
+        f.cache.spacing = std::clamp(2.5F * std::sqrt(tolerance), 0.2F, 0.6F);
+        f.cache.smallest_reach = 3.0F * tolerance * unit;
+        f.cache.largest_reach = 1.0F * unit;
+        f.cache.contrast = 2.0F * tolerance;
         return f;
     };
     out.charts.tile_edge = 0.32F * unit;
@@ -37,7 +41,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     switch (quality) {
     case SolverSettings::Quality::Draft:
         set(0.5F, 0.2F, 2e-3F, 4, 1.0F, 0.12F, 0.15F);
-        out.field = look(0.05F, 96, 24, 4, 36, 32);
+        out.field = look(0.05F, 96, 24, 4, 36, 128);
         out.maps.first_level = 1;
         out.maps.max_level = 4;
         out.maps.contrast = 0.06F;
@@ -47,11 +51,11 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         break;
     case SolverSettings::Quality::Normal:
         set(0.3F, 0.15F, 5e-4F, 8, 0.5F, 0.03F, 0.06F);
-        out.field = look(0.02F, 192, 64, 16, 96, 64);
+        out.field = look(0.02F, 192, 64, 64, 96, 256);
         break;
     case SolverSettings::Quality::Fine:
         set(0.15F, 0.08F, 1e-4F, 16, 0.25F, 0.015F, 0.03F);
-        out.field = look(0.008F, 400, 192, 32, 256, 256);
+        out.field = look(0.008F, 400, 192, 128, 256, 1024);
         out.maps.first_level = 3;
         out.maps.max_level = 7;
         out.maps.contrast = 0.015F;
@@ -74,7 +78,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         out.field.reflected.tolerance = float(out.field.reflected.tolerance / ratio);
         out.refine.flux_threshold = float(out.refine.flux_threshold / ratio);
     }
-    out.first_field = look(0.05F, 96, 16, 4, 24, 16);
+    out.first_field = look(0.1F, 96, 16, 4, 24, 64);
     out.leaf_field = look(0.05F, 96, 8, 1, std::max(out.field.direct.sky_rays / 8, 16U), 16);
     out.maps.cover_reach = 0.05F * unit;
     out.first_maps = out.maps;

@@ -14,6 +14,7 @@ namespace atrium {
 struct FieldSettings {
     GatherSettings direct; ///< named emitters, sun, sky and lamps
     IndirectSettings reflected;
+    CacheSettings cache; ///< of reflected light
 };
 
 struct QualitySettings {

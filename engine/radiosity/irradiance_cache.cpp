@@ -1,0 +1,320 @@
+#include "engine/radiosity/irradiance_cache.h"
+
+#include "engine/base/parallel.h"
+#include "engine/base/rng.h"
+
+#include <algorithm>
+
+namespace atrium {
+namespace {
+
+using Cell = glm::vec<3, std::int32_t>;
+constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+constexpr std::size_t kGrain = 16;
+constexpr int kMostRounds = 4; // of looking where interpolation is off
+
+Cell cell_of(const vec3& p, float size) {
+    return {std::int32_t(std::floor(p.x / size)), std::int32_t(std::floor(p.y / size)),
+            std::int32_t(std::floor(p.z / size))};
+}
+
+} // namespace
+
+IrradianceCache::IrradianceCache(const RayScene& rays, Sampler sampler, const CacheSettings& settings)
+    : rays_(rays), sampler_(std::move(sampler)), settings_(settings) {
+    levels_ = 1 + level_of(settings_.largest_reach);
+}
+
+int IrradianceCache::level_of(float reach) const {
+    return std::max(0, int(std::ceil(std::log2(std::max(reach / settings_.smallest_reach, 1.0F)))));
+}
+
+std::uint64_t IrradianceCache::cell_key(int level, const Cell& c) {
+    return hash_combine(hash_combine(std::uint64_t(std::uint32_t(c.x)) << 32 | std::uint32_t(c.y), std::uint32_t(c.z)),
+                        std::uint64_t(level));
+}
+
+// Cells of a level are as large as the longest diameter of its records: a record lies in at most eight.
+void IrradianceCache::insert(const Record& record) {
+    const auto index = std::uint32_t(records_.size());
+    records_.push_back(record);
+    const int level = level_of(record.reach);
+    const float size = 2.0F * settings_.smallest_reach * std::exp2(float(level));
+    const Cell low = cell_of(record.position - vec3(record.reach), size);
+    const Cell high = cell_of(record.position + vec3(record.reach), size);
+    for (int z = low.z; z <= high.z; ++z) {
+        for (int y = low.y; y <= high.y; ++y) {
+            for (int x = low.x; x <= high.x; ++x) {
+                cells_[cell_key(level, {x, y, z})].push_back(index);
+            }
+        }
+    }
+}
+
+float IrradianceCache::weight(const Record& r, const vec3& point, const vec3& normal) const {
+    const vec3 d = point - r.position;
+    const float distance2 = glm::dot(d, d);
+    const float cosine = glm::dot(normal, r.normal);
+    if (distance2 >= r.reach * r.reach || cosine <= settings_.normal_cosine) {
+        return 0.0F;
+    }
+    // Points well before or behind the record's plane see something else.
+    const float height = std::abs(glm::dot(d, normal + r.normal)) * 0.5F;
+    const float far = std::max(std::sqrt(distance2), 4.0F * height) / r.reach;
+    const float bent = std::sqrt(std::max(1.0F - cosine, 0.0F) / (1.0F - settings_.normal_cosine));
+    return std::max(1.0F - std::max(far, bent), 0.0F);
+}
+
+// Lifted off both surfaces by more than the bulge of a round one between them.
+bool IrradianceCache::sees(const Record& r, const vec3& point, const vec3& normal) const {
+    const float distance = glm::length(point - r.position);
+    const float lift = 0.08F * distance + 1e-3F * settings_.smallest_reach;
+    return distance < 1e-3F * settings_.smallest_reach ||
+           !rays_.occluded(r.position + r.normal * lift, point + normal * lift);
+}
+
+std::size_t IrradianceCache::find(const vec3& point, const vec3& normal, std::uint32_t skip, bool any,
+                                  std::array<Use, kMostUsed>& out) const {
+    std::size_t count = 0;
+    for (int level = 0; level < levels_; ++level) {
+        const float size = 2.0F * settings_.smallest_reach * std::exp2(float(level));
+        const auto it = cells_.find(cell_key(level, cell_of(point, size)));
+        if (it == cells_.end()) {
+            continue;
+        }
+        for (const std::uint32_t index : it->second) {
+            const float w = index == skip ? 0.0F : weight(records_[index], point, normal);
+            if (!(w > 0.0F) || (count == kMostUsed && w <= out[count - 1].weight) || !sees(records_[index], point, normal)) {
+                continue;
+            }
+            if (any) {
+                out[0] = {index, w};
+                return 1;
+            }
+            // Kept in order of weight; the lightest falls out.
+            std::size_t at = count < kMostUsed ? count++ : count - 1;
+            for (; at > 0 && out[at - 1].weight < w; --at) {
+                out[at] = out[at - 1];
+            }
+            out[at] = {index, w};
+        }
+    }
+    return count;
+}
+
+Rgb IrradianceCache::predict(const Record& r, const vec3& point) const {
+    const vec3 d = point - r.position;
+    const float u = glm::dot(d, r.tangent);
+    const float v = glm::dot(d, glm::cross(r.normal, r.tangent));
+    return glm::max(r.irradiance + r.gradient[0] * u + r.gradient[1] * v, Rgb(0.0F));
+}
+
+FieldSample IrradianceCache::at(const vec3& point, const vec3& normal) const {
+    std::array<Use, kMostUsed> used;
+    const std::size_t count = find(point, normal, kNone, false, used);
+    if (count == 0) {
+        return sampler_(point, normal);
+    }
+    FieldSample out;
+    float sum = 0.0F;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Record& r = records_[used[i].record];
+        out.irradiance += predict(r, point) * used[i].weight;
+        // Neighbouring records use the same directions: their errors are alike and do not average out.
+        out.variance += r.variance * used[i].weight;
+        out.distance += r.reach / settings_.spacing * used[i].weight;
+        sum += used[i].weight;
+    }
+    out.irradiance /= sum;
+    out.variance /= sum;
+    out.distance /= sum;
+    return out;
+}
+
+// One round: of the points out of reach, some that are `separation` apart get records. `open` shrinks to what is left.
+bool IrradianceCache::add_round(std::span<const SurfacePoint> points, std::vector<std::uint32_t>& open, float separation,
+                                const RunContext& context) {
+    std::vector<std::uint8_t> reached(open.size(), 0);
+    parallel_chunks(open.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
+        std::array<Use, kMostUsed> used;
+        for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
+            const SurfacePoint& p = points[open[i]];
+            reached[i] = find(p.position, p.normal, kNone, true, used) > 0 ? 1 : 0;
+        }
+    });
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> taken;
+    std::vector<std::uint32_t> left;
+    std::vector<std::uint32_t> chosen;
+    const float room2 = separation * separation;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        if (reached[i] != 0) {
+            continue;
+        }
+        left.push_back(open[i]);
+        const SurfacePoint& p = points[open[i]];
+        const Cell cell = cell_of(p.position, separation);
+        bool free = true;
+        for (int k = 0; k < 27 && free; ++k) {
+            const Cell near = cell + Cell(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+            const auto it = taken.find(cell_key(0, near));
+            free = it == taken.end() || std::none_of(it->second.begin(), it->second.end(), [&](std::uint32_t j) {
+                       const vec3 d = points[j].position - p.position;
+                       return glm::dot(d, d) < room2 && glm::dot(points[j].normal, p.normal) > settings_.normal_cosine;
+                   });
+        }
+        if (free) {
+            taken[cell_key(0, cell)].push_back(open[i]);
+            chosen.push_back(open[i]);
+        }
+    }
+    if (records_.size() + chosen.size() > settings_.max_records) {
+        chosen.resize(settings_.max_records - std::min(settings_.max_records, records_.size()));
+    }
+    std::vector<FieldSample> samples(chosen.size());
+    parallel_chunks(chosen.size(), kGrain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
+            samples[i] = sampler_(points[chosen[i]].position, points[chosen[i]].normal);
+        }
+    });
+    if (context.should_stop()) {
+        return false;
+    }
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const SurfacePoint& p = points[chosen[i]];
+        Record r;
+        r.position = p.position;
+        r.normal = p.normal;
+        r.irradiance = samples[i].irradiance;
+        r.variance = samples[i].variance;
+        r.reach = std::clamp(settings_.spacing * samples[i].distance, settings_.smallest_reach, settings_.largest_reach);
+        vec3 b;
+        make_frame(p.normal, r.tangent, b);
+        insert(r);
+    }
+    open = std::move(left);
+    return true;
+}
+
+bool IrradianceCache::cover_reach(std::span<const SurfacePoint> points, const RunContext& context) {
+    std::vector<std::uint32_t> open(points.size());
+    for (std::uint32_t i = 0; i < open.size(); ++i) {
+        open[i] = i;
+    }
+    // Wide steps first: where much is far away few records do, and what they leave is filled by closer ones.
+    for (float separation = settings_.largest_reach; !open.empty() && records_.size() < settings_.max_records;
+         separation *= 0.5F) {
+        const std::size_t before = records_.size();
+        if (!add_round(points, open, std::max(separation, 0.5F * settings_.smallest_reach), context)) {
+            return false;
+        }
+        if (separation < 0.5F * settings_.smallest_reach && records_.size() == before) {
+            break; // what is left cannot see its own record: points inside solids
+        }
+    }
+    return true;
+}
+
+void IrradianceCache::fit_gradients() {
+    error_.assign(records_.size(), -1.0F);
+    std::vector<std::array<Rgb, 2>> gradient(records_.size());
+    parallel_chunks(records_.size(), 128, [&](std::size_t begin, std::size_t end, std::size_t) {
+        std::array<Use, kMostUsed> used;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Record& r = records_[i];
+            gradient[i] = {Rgb(0.0F), Rgb(0.0F)};
+            const std::size_t count = find(r.position, r.normal, std::uint32_t(i), false, used);
+            if (count < 3) {
+                continue;
+            }
+            const vec3 bitangent = glm::cross(r.normal, r.tangent);
+            double uu = 0.0, uv = 0.0, vv = 0.0;
+            Rgb ue(0.0F), ve(0.0F);
+            for (std::size_t k = 0; k < count; ++k) {
+                const Record& other = records_[used[k].record];
+                const vec3 d = other.position - r.position;
+                const float u = glm::dot(d, r.tangent), v = glm::dot(d, bitangent), w = used[k].weight;
+                uu += double(w) * u * u;
+                uv += double(w) * u * v;
+                vv += double(w) * v * v;
+                ue += (other.irradiance - r.irradiance) * (w * u);
+                ve += (other.irradiance - r.irradiance) * (w * v);
+            }
+            // A little damping: neighbours on one line say nothing about the other direction.
+            const double damping = 0.05 * (uu + vv);
+            uu += damping;
+            vv += damping;
+            const double det = uu * vv - uv * uv;
+            if (det > 0.0) {
+                gradient[i] = {(ue * float(vv) - ve * float(uv)) / float(det),
+                               (ve * float(uu) - ue * float(uv)) / float(det)};
+            }
+        }
+    });
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+        records_[i].gradient = gradient[i];
+    }
+    parallel_chunks(records_.size(), 128, [&](std::size_t begin, std::size_t end, std::size_t) {
+        std::array<Use, kMostUsed> used;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Record& r = records_[i];
+            const std::size_t count = find(r.position, r.normal, std::uint32_t(i), false, used);
+            Rgb sum(0.0F);
+            float weights = 0.0F;
+            for (std::size_t k = 0; k < count; ++k) {
+                sum += predict(records_[used[k].record], r.position) * used[k].weight;
+                weights += used[k].weight;
+            }
+            if (weights > 0.0F) {
+                const float own = luminance(r.irradiance);
+                error_[i] = std::abs(luminance(sum) / weights - own) / std::max(own, settings_.light_floor);
+            }
+        }
+    });
+}
+
+std::size_t IrradianceCache::shorten() {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+        Record& r = records_[i];
+        // Between records the error is smaller than at one that is left out: about half.
+        if (error_[i] > 2.0F * settings_.contrast && r.reach > settings_.smallest_reach) {
+            r.reach =
+                std::max(0.6F * r.reach, settings_.smallest_reach); // stays in its cells: they hold more than it reaches
+            ++count;
+        }
+    }
+    return count;
+}
+
+bool IrradianceCache::cover(std::span<const SurfacePoint> points, const RunContext& context) {
+    for (int round = 0; round < kMostRounds; ++round) {
+        const std::size_t before = records_.size();
+        if (!cover_reach(points, context)) {
+            return false;
+        }
+        if (records_.size() != before || round == 0) {
+            fit_gradients();
+        }
+        if (context.should_stop()) {
+            return false;
+        }
+        if (shorten() == 0) {
+            break;
+        }
+    }
+    return true;
+}
+
+double IrradianceCache::interpolation_error() const {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (const float e : error_) {
+        if (e >= 0.0F) {
+            sum += double(e) * e;
+            ++count;
+        }
+    }
+    return count > 0 ? std::sqrt(sum / double(count)) : 0.0;
+}
+
+} // namespace atrium
