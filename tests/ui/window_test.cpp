@@ -565,6 +565,24 @@ TEST_F(WindowTest, IconsAreSeenOnLightAndOnDark) {
     QApplication::setPalette(before);
 }
 
+TEST_F(WindowTest, DirectAndDiffuseLightCanBeLeftOutAndThatIsRemembered) {
+    auto* view = window->findChild<ViewportWidget*>();
+    ASSERT_NE(view, nullptr);
+    EXPECT_TRUE(view->light_shares() == LightShares{});
+    trigger(ActionId::ShowDirect);
+    EXPECT_TRUE(view->light_shares() == (LightShares{true, false}));
+    trigger(ActionId::ShowDiffuse); // nothing would be left: the other comes back
+    EXPECT_TRUE(view->light_shares() == (LightShares{false, true}));
+    EXPECT_TRUE(window->action(ActionId::ShowDirect)->isChecked());
+    TearDown();
+    SetUp();
+    view = window->findChild<ViewportWidget*>();
+    EXPECT_TRUE(view->light_shares() == (LightShares{false, true}));
+    EXPECT_FALSE(window->action(ActionId::ShowDiffuse)->isChecked());
+    trigger(ActionId::ShowDiffuse);
+    EXPECT_TRUE(view->light_shares() == LightShares{});
+}
+
 TEST_F(WindowTest, EveryActionHasTextTipAndItsOwnKey) {
     QStringList keys;
     for (const ActionInfo& info : action_table()) {

@@ -1,3 +1,4 @@
+// Longer than most: all that reaches the widget from outside (events, document, engine) is answered here and passed on.
 #include "ui/viewport/viewport_widget.h"
 
 #include "engine/view/tone.h"
