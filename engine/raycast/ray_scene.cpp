@@ -386,6 +386,14 @@ Rgb RayScene::transmittance_to_infinity(const vec3& from, const vec3& direction)
     return impl_->transmit(*this, from, direction, end_offset(from), std::numeric_limits<float>::infinity());
 }
 
+Rgb RayScene::transmittance(const Ray& ray) const {
+    return impl_->transmit(*this, ray.origin, ray.direction, 0.0F, ray.tmax);
+}
+
+Rgb RayScene::straight_through(const Hit& hit, const vec3& direction) const {
+    return lets_light_through(*impl_->materials[hit.surface]) ? impl_->filter(*this, hit, direction) : Rgb(0.0F);
+}
+
 Hit RayScene::first_pane(const vec3& from, const vec3& direction) const {
     float tnear = 0.0F;
     for (int crossing = 0; impl_->any_filter && crossing < kMaxCrossings; ++crossing) {

@@ -74,6 +74,12 @@ public:
     /// The same along a ray that never ends (sun, sky).
     [[nodiscard]] Rgb transmittance_to_infinity(const vec3& from, const vec3& direction) const;
 
+    /// The same along a ray from its very origin to tmax; nothing is pulled in, so the caller keeps clear of the surfaces
+    /// that the ends lie on.
+    [[nodiscard]] Rgb transmittance(const Ray& ray) const;
+    /// Share of light that goes straight on through the surface of a hit (0 where it is opaque): glass, holes, blending.
+    [[nodiscard]] Rgb straight_through(const Hit& hit, const vec3& direction) const;
+
     /// First pane that a ray without end crosses, whatever stands in between; none when it crosses no pane.
     [[nodiscard]] Hit first_pane(const vec3& from, const vec3& direction) const;
 
