@@ -185,6 +185,26 @@ Rgb PathTracer::irradiance(PathVertex v, PathSampler& sampler) const {
     }
 }
 
+bool PathTracer::finds_light(PathVertex v, PathSampler& sampler, unsigned bounces) const {
+    for (unsigned bounce = 0; bounce <= bounces; ++bounce) {
+        const vec4 a = sampler.next4();
+        const vec4 b = sampler.next4();
+        Rgb found = lamps_and_suns(v, {b.x, b.y}, b.w, true);
+        if (lights_.has_emitters()) {
+            found += emitter(v, {a.z, a.w}, b.z);
+        }
+        const Leg leg = follow({v.origin, cosine_direction(v.normal, {a.x, a.y})}, 0.0F, false, sampler);
+        if (max_component(found + leg.seen) > 0.0F) {
+            return true;
+        }
+        if (!(max_component(leg.scatter) > 0.0F)) {
+            return false;
+        }
+        v = leg.next;
+    }
+    return false;
+}
+
 Rgb PathTracer::radiance(Ray ray, PathSampler& sampler) const {
     const Leg leg = follow(ray, 0.0F, true, sampler);
     if (!(max_component(leg.scatter) > 0.0F)) {

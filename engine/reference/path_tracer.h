@@ -31,6 +31,10 @@ public:
     /// the viewport.
     [[nodiscard]] Rgb radiance(Ray ray, PathSampler& sampler) const;
 
+    /// True when a path of at most `bounces` bounces meets any light: of many paths, a quick test for places that light does
+    /// not reach, as the insides of furniture.
+    [[nodiscard]] bool finds_light(PathVertex vertex, PathSampler& sampler, unsigned bounces) const;
+
 private:
     /// What a ray met: the light that comes straight along it, and the vertex at which it goes on.
     struct Leg {

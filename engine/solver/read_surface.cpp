@@ -159,7 +159,7 @@ std::vector<SensorReading> read_surfaces(const Scene& scene, const Solution& sol
             tree.find(grown(box), [&](std::uint32_t i) {
                 const double cosine = glm::dot(face, places[i].normal);
                 const bool back = cosine < 0.0;
-                if (std::abs(cosine) < 0.7 || (back && layer->irradiance_back.empty())) {
+                if (std::abs(cosine) < 0.7 || (back && !layer->has_back())) {
                     return;
                 }
                 const dvec2 w = closest_on_triangle(places[i].point, a, b, c);
@@ -167,9 +167,7 @@ std::vector<SensorReading> read_surfaces(const Scene& scene, const Solution& sol
                 const double distance = glm::length(nearest - places[i].point);
                 if (distance < best[i]) {
                     best[i] = distance;
-                    const auto& light = back ? layer->irradiance_back : layer->irradiance_front;
-                    out[i].irradiance =
-                        light[v[0]] * float(1.0 - w.x - w.y) + light[v[1]] * float(w.x) + light[v[2]] * float(w.y);
+                    out[i].irradiance = irradiance_at(*layer, {v[0], v[1], v[2]}, {1.0 - w.x - w.y, w.x, w.y}, back);
                     out[i].on_surface = true;
                 }
             });

@@ -3,6 +3,7 @@
 #include "engine/base/rng.h"
 #include "engine/io/scene_file.h"
 #include "engine/raycast/ray_scene.h"
+#include "engine/reference/path_tracer.h"
 #include "engine/reference/reference.h"
 #include "engine/scene/daylight.h"
 #include "engine/solver/gi_engine.h"
@@ -57,24 +58,26 @@ struct Reference {
 
 // ---- places ----
 
-/// True where the side is neither covered (everything within a millimetre) nor inside a solid (nothing but black backs).
-bool light_can_reach(const RayScene& rays, const vec3& position, const vec3& normal) {
-    constexpr unsigned kRays = 64;
+/// True where the side is neither covered (everything within a millimetre) nor out of reach of all light: of 48 paths of
+/// up to 48 bounces at least one finds some.
+bool light_can_reach(const RayScene& rays, const PathTracer& tracer, const vec3& position, const vec3& normal) {
+    constexpr std::uint32_t kTries = 48;
     vec3 t;
     vec3 b;
     make_frame(normal, t, b);
-    for (unsigned i = 0; i < kRays; ++i) {
+    bool covered = true;
+    const PathVertex vertex{clear_of(position, normal), normal};
+    for (std::uint32_t i = 0; i < kTries && covered; ++i) {
         const vec2 u = sobol_owen2(i, 0, 77U);
         const float r = std::sqrt(u.x);
         const float angle = 2.0F * kPi * u.y;
         const vec3 d = glm::normalize(r * std::cos(angle) * t + r * std::sin(angle) * b + std::sqrt(1.0F - u.x) * normal);
-        const Hit hit = rays.nearest({position + normal * 2e-5F, d});
-        if (!hit) {
-            return true;
-        }
-        const bool black =
-            !hit.front && !rays.surfaces()[hit.surface].back_side && !(max_component(rays.straight_through(hit, d)) > 0.0F);
-        if (hit.t > 1e-3F && !black) {
+        const Hit hit = rays.nearest({vertex.origin, d});
+        covered = hit && hit.t < 1e-3F;
+    }
+    for (std::uint32_t i = 0; i < kTries && !covered; ++i) {
+        PathSampler sampler(99, i);
+        if (tracer.finds_light(vertex, sampler, kTries)) {
             return true;
         }
     }
@@ -84,6 +87,7 @@ bool light_can_reach(const RayScene& rays, const vec3& position, const vec3& nor
 /// Area-weighted random places; the same for the same scene and count.
 std::vector<Probe> pick_probes(const Scene& scene, std::size_t count) {
     const RayScene rays(scene);
+    const PathTracer tracer(scene, rays);
     struct Side {
         std::uint32_t surface, triangle;
         bool back;
@@ -128,7 +132,7 @@ std::vector<Probe> pick_probes(const Scene& scene, std::size_t count) {
         vec3 normal = rays.shading_normal(hit);
         normal = glm::dot(normal, hit.geometric_normal) >= 0.75F ? normal : hit.geometric_normal;
         const float sign = side.back ? -1.0F : 1.0F;
-        if (!light_can_reach(rays, position, hit.geometric_normal * sign)) {
+        if (!light_can_reach(rays, tracer, position, hit.geometric_normal * sign)) {
             continue;
         }
         Probe probe;
@@ -276,7 +280,7 @@ bool get_reference(const fs::path& file, const Scene& scene, bool daylight, cons
 
 struct Row {
     std::size_t points = 0;
-    std::size_t unread = 0; ///< points at which the solution has no layer
+    std::size_t unread = 0; ///< points at which the solution has no layer: shown black, counted as such
     double rms = 0;         ///< see header()
     double rms_spread = 0;  ///< standard error of rms from the choice of points and the reference's noise
     double bias = 0;
@@ -301,10 +305,7 @@ Row compare(const std::vector<Probe>& probes, const std::vector<SensorReading>& 
     double variance = 0.0;
     double noise2 = 0.0;
     for (std::size_t i = 0; i < probes.size(); ++i) {
-        if (!readings[i].on_surface) {
-            ++row.unread;
-            continue;
-        }
+        row.unread += readings[i].on_surface ? 0 : 1;
         const double r = luminance(probes[i].irradiance);
         const double e = luminance(readings[i].irradiance);
         const double scale = std::max(r, floor);
