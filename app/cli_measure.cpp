@@ -23,18 +23,6 @@ struct Arguments {
     SolveArguments solve;
 };
 
-std::string csv(const std::vector<SensorPoint>& points, const std::vector<SensorReading>& readings) {
-    std::string out = "x,y,z,nx,ny,nz,E_r,E_g,E_b,E,stderr,on_surface\n";
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const dvec3& p = points[i].position;
-        const dvec3& n = points[i].normal;
-        const Rgb& e = readings[i].irradiance;
-        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", p.x, p.y, p.z, n.x, n.y, n.z, e.r, e.g, e.b,
-                           luminance(e), readings[i].standard_error, readings[i].on_surface ? 1 : 0);
-    }
-    return out;
-}
-
 int run(const Arguments& a) {
     if (auto fine = check_output(a.out); !fine) {
         return refuse(fine.error());
@@ -81,7 +69,7 @@ int run(const Arguments& a) {
             return status;
         }
     }
-    if (auto written = write_text(a.out, csv(*points, readings)); !written) {
+    if (auto written = write_text(a.out, measurement_csv(*points, readings)); !written) {
         return refuse(written.error());
     }
     return finish(*solved, a.solve);

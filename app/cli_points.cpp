@@ -132,4 +132,16 @@ Result<std::vector<SensorPoint>> parse_points(const std::string& text, const std
     return points;
 }
 
+std::string measurement_csv(const std::vector<SensorPoint>& points, const std::vector<SensorReading>& readings) {
+    std::string out = "x,y,z,nx,ny,nz,E_r,E_g,E_b,E,stderr,on_surface\n";
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const dvec3& p = points[i].position;
+        const dvec3& n = points[i].normal;
+        const Rgb& e = readings[i].irradiance;
+        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", p.x, p.y, p.z, n.x, n.y, n.z, e.r, e.g, e.b,
+                           luminance(e), readings[i].standard_error, readings[i].on_surface ? 1 : 0);
+    }
+    return out;
+}
+
 } // namespace atrium::cli

@@ -3,6 +3,7 @@
 
 #include "engine/base/math.h"
 #include "engine/base/result.h"
+#include "engine/solver/gi_engine.h"
 
 #include <cstddef>
 #include <optional>
@@ -24,5 +25,8 @@ struct SensorPoint {
 Result<std::vector<SensorPoint>> read_points(const std::string& path);
 /// The same from text; `name` is for messages.
 Result<std::vector<SensorPoint>> parse_points(const std::string& text, const std::string& name);
+
+/// Readings of as many points as CSV with the columns of CONTRACTS, in lux.
+std::string measurement_csv(const std::vector<SensorPoint>& points, const std::vector<SensorReading>& readings);
 
 } // namespace atrium::cli

@@ -9,7 +9,6 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
-#include <charconv>
 #include <memory>
 #include <optional>
 
@@ -26,20 +25,6 @@ struct Arguments {
     std::string layers;
     SolveArguments solve;
 };
-
-Result<StillOptions> parse_size(const std::string& text) {
-    StillOptions options;
-    const char* end = text.data() + text.size();
-    const auto width = std::from_chars(text.data(), end, options.width);
-    if (width.ec == std::errc() && width.ptr != end && (*width.ptr == 'x' || *width.ptr == 'X')) {
-        const auto height = std::from_chars(width.ptr + 1, end, options.height);
-        if (height.ec == std::errc() && height.ptr == end && options.width >= 1 && options.height >= 1 &&
-            options.width <= 16384 && options.height <= 16384) {
-            return options;
-        }
-    }
-    return fail("", "--size", fmt::format("'{}' is not a size", text), "Write it as 1280x720, each side from 1 to 16384.");
-}
 
 /// Which light the picture shows. There is no caustic layer in this version.
 struct LayerChoice {
@@ -80,11 +65,14 @@ int run(const Arguments& a) {
     if (extension != ".exr" && extension != ".png") {
         return refuse({a.out, "", "cannot be written in this format", "Use a name that ends in .exr or .png."});
     }
-    auto options = parse_size(a.size);
+    const auto size = parse_size(a.size);
     const auto layers = parse_layers(a.layers);
-    if (!options || !layers) {
-        return refuse(!options ? options.error() : layers.error());
+    if (!size || !layers) {
+        return refuse(!size ? size.error() : layers.error());
     }
+    StillOptions options;
+    options.width = size->first;
+    options.height = size->second;
     if (auto fine = check_output(a.out); !fine) {
         return refuse(fine.error());
     }
@@ -105,11 +93,11 @@ int run(const Arguments& a) {
     RunContext context;
     context.stop = new_stop_flag();
     context.on_progress = progress_reporter(a.solve.progress);
-    options->shares = layers->seen;
+    options.shares = layers->seen;
     if (!layers->specular) {
-        options->max_specular_depth = 0;
+        options.max_specular_depth = 0;
     }
-    Picture picture = render_still(solved->scene, *solved->solution, *camera, *options, context);
+    Picture picture = render_still(solved->scene, *solved->solution, *camera, options, context);
     finish_progress();
     solved->stopped = solved->stopped || context.should_stop();
     if (extension == ".png") {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -162,6 +163,20 @@ Result<void> check_output(const std::string& path) {
         return fail(path, "", "is a folder, not a file");
     }
     return {};
+}
+
+Result<std::pair<int, int>> parse_size(const std::string& text) {
+    std::pair<int, int> size;
+    const char* end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.first);
+    if (width.ec == std::errc() && width.ptr != end && (*width.ptr == 'x' || *width.ptr == 'X')) {
+        const auto height = std::from_chars(width.ptr + 1, end, size.second);
+        if (height.ec == std::errc() && height.ptr == end && size.first >= 1 && size.second >= 1 && size.first <= 16384 &&
+            size.second <= 16384) {
+            return size;
+        }
+    }
+    return fail("", "--size", "'" + text + "' is not a size", "Write it as 1280x720, each side from 1 to 16384.");
 }
 
 std::string extension_of(const std::string& path) {

@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace atrium::cli {
@@ -46,6 +47,8 @@ Result<void> write_text(const std::string& path, const std::string& text);
 Result<std::string> read_text(const std::string& path);
 /// Refuses an output path whose folder does not exist, before hours of work. An empty path and "-" are fine.
 Result<void> check_output(const std::string& path);
+/// Width and height of a picture from text such as 1280x720, each from 1 to 16384.
+Result<std::pair<int, int>> parse_size(const std::string& text);
 /// Extension with its dot, in lower case.
 std::string extension_of(const std::string& path);
 

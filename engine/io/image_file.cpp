@@ -1,5 +1,6 @@
 #include "engine/io/image_file.h"
 
+#include "engine/base/checks.h"
 #include "engine/io/file_access.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -114,7 +115,8 @@ Result<Image> read_image(const std::filesystem::path& path) {
     return decode_image(*bytes, path.string());
 }
 
-Result<void> write_picture(const std::filesystem::path& path, const Picture& picture) {
+Result<void> write_picture(const std::filesystem::path& path, const Picture& picture,
+                           const std::vector<PictureChannel>& extra) {
     const std::string extension = path.extension().string();
     if (picture.width <= 0 || picture.height <= 0 ||
         picture.pixels.size() != std::size_t(picture.width) * std::size_t(picture.height)) {
@@ -127,7 +129,20 @@ Result<void> write_picture(const std::filesystem::path& path, const Picture& pic
             OIIO::ImageSpec spec(picture.width, picture.height, 3, OIIO::TypeDesc::FLOAT);
             spec.attribute("compression", "zip");
             spec.attribute("oiio:ColorSpace", "Linear");
-            bytes = encode("exr", spec, picture.pixels.data(), path.string());
+            spec.nchannels += int(extra.size());
+            std::vector<float> samples;
+            samples.reserve(picture.pixels.size() * std::size_t(spec.nchannels));
+            for (const PictureChannel& channel : extra) {
+                ATRIUM_CHECK(channel.values.size() == picture.pixels.size());
+                spec.channelnames.push_back(channel.name);
+            }
+            for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+                samples.insert(samples.end(), {picture.pixels[i].r, picture.pixels[i].g, picture.pixels[i].b});
+                for (const PictureChannel& channel : extra) {
+                    samples.push_back(channel.values[i]);
+                }
+            }
+            bytes = encode("exr", spec, samples.data(), path.string());
         } else if (extension == ".png") {
             std::vector<std::uint8_t> samples;
             samples.reserve(picture.pixels.size() * 3);

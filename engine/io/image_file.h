@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace atrium {
@@ -22,9 +23,15 @@ struct Picture {
     int height = 0;
     std::vector<vec3> pixels;
 };
+/// One more number per pixel beside a picture's colours.
+struct PictureChannel {
+    std::string name;          ///< as EXR readers show it, "layer.component"
+    std::vector<float> values; ///< rows from the top
+};
 /// Writes .exr (float, linear) or .png (8 bit, pixels already display-encoded in [0,1]) by extension; atomic (temporary
-/// file, then rename).
-Result<void> write_picture(const std::filesystem::path& path, const Picture& picture);
+/// file, then rename). `extra` channels go into .exr files only.
+Result<void> write_picture(const std::filesystem::path& path, const Picture& picture,
+                           const std::vector<PictureChannel>& extra = {});
 /// Encodes 8-bit samples as PNG in memory, for generated textures.
 Result<std::vector<std::uint8_t>> encode_png(const Image& image);
 

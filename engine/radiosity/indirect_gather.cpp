@@ -60,7 +60,7 @@ Rgb IndirectGather::along(vec3 origin, const vec3& direction, float& distance) c
         if (leaf != Element::kNone && bright_[leaf] == 0) {
             sum += through * h_.elements[leaf].radiosity;
         }
-        through *= rays_.let_through(hit, direction);
+        through *= rays_.straight_through(hit, direction);
         if (!(max_component(through) > 1e-3F)) {
             break;
         }

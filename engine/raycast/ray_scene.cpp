@@ -397,14 +397,18 @@ Rgb RayScene::transmittance_to_infinity(const vec3& from, const vec3& direction)
     return impl_->transmit(*this, from, direction, end_offset(from), std::numeric_limits<float>::infinity());
 }
 
-Rgb RayScene::let_through(const Hit& hit, const vec3& direction) const {
-    return lets_light_through(*impl_->materials[hit.surface]) ? impl_->filter(*this, hit, direction) : Rgb(0.0F);
-}
-
 Rgb RayScene::transmittance_to_infinity(const vec3& from, const vec3& direction, float& first_pane) const {
     constexpr float kFar = std::numeric_limits<float>::infinity();
     first_pane = kFar;
     return impl_->transmit(*this, from, direction, end_offset(from), kFar, &first_pane);
+}
+
+Rgb RayScene::transmittance(const Ray& ray) const {
+    return impl_->transmit(*this, ray.origin, ray.direction, 0.0F, ray.tmax);
+}
+
+Rgb RayScene::straight_through(const Hit& hit, const vec3& direction) const {
+    return lets_light_through(*impl_->materials[hit.surface]) ? impl_->filter(*this, hit, direction) : Rgb(0.0F);
 }
 
 vec4 RayScene::base_color(std::uint32_t surface, std::uint32_t triangle, const vec2& barycentric) const {

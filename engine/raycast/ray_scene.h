@@ -78,8 +78,11 @@ public:
     /// crossed.
     [[nodiscard]] Rgb transmittance_to_infinity(const vec3& from, const vec3& direction, float& first_pane) const;
 
-    /// Share of light that goes straight on at a hit (glass, alpha blending), 0 for what is opaque.
-    [[nodiscard]] Rgb let_through(const Hit& hit, const vec3& direction) const;
+    /// The same along a ray from its very origin to tmax; nothing is pulled in, so the caller keeps clear of the surfaces
+    /// that the ends lie on.
+    [[nodiscard]] Rgb transmittance(const Ray& ray) const;
+    /// Share of light that goes straight on through the surface of a hit (0 where it is opaque): glass, holes, blending.
+    [[nodiscard]] Rgb straight_through(const Hit& hit, const vec3& direction) const;
 
     /// Material of a surface; the default material where it has none.
     [[nodiscard]] const Material& material(std::uint32_t surface) const;

@@ -7,6 +7,8 @@
 
 #include <functional>
 #include <memory>
+#include <span>
+#include <vector>
 
 namespace atrium {
 
@@ -52,5 +54,13 @@ private:
 /// Irradiance read from a solution's own layers at a world point: the diffuse surface within 1 cm that faces the same way
 /// as `normal`; on_surface = false when there is none.
 SensorReading read_surface(const Scene& scene, const Solution& solution, const dvec3& point, const dvec3& normal);
+
+/// A place to read: a world point and the unit normal of the side that is meant.
+struct SensorPlace {
+    dvec3 point{0.0};
+    dvec3 normal{0.0, 1.0, 0.0};
+};
+/// read_surface() for many points at once, in one pass over the layers.
+std::vector<SensorReading> read_surfaces(const Scene& scene, const Solution& solution, std::span<const SensorPlace> places);
 
 } // namespace atrium

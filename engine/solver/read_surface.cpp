@@ -1,5 +1,8 @@
 #include "engine/solver/gi_engine.h"
 
+#include <algorithm>
+#include <numeric>
+
 namespace atrium {
 namespace {
 
@@ -39,15 +42,93 @@ dvec2 closest_on_triangle(const dvec3& p, const dvec3& a, const dvec3& b, const 
     return sum > 0.0 ? dvec2(vb / sum, vc / sum) : dvec2(0.0);
 }
 
+/// Points in a balanced tree of boxes: finds those in a box in logarithmic time.
+class PointTree {
+public:
+    explicit PointTree(std::span<const SensorPlace> places) : places_(places), order_(places.size()) {
+        std::iota(order_.begin(), order_.end(), 0U);
+        if (!order_.empty()) {
+            build(0, order_.size());
+        }
+    }
+    /// Calls visit(index) for every point in the box.
+    template <class F> void find(const DBox3& box, F&& visit) const {
+        if (!nodes_.empty()) {
+            find(0, box, visit);
+        }
+    }
+
+private:
+    struct Branch {
+        DBox3 box;
+        std::size_t begin = 0;
+        std::size_t end = 0;
+        std::size_t second = 0; ///< index of the second child, the first follows its parent; 0 = leaf
+    };
+    void build(std::size_t begin, std::size_t end) {
+        const std::size_t index = nodes_.size();
+        nodes_.push_back({{}, begin, end, 0});
+        for (std::size_t i = begin; i < end; ++i) {
+            nodes_[index].box.add(places_[order_[i]].point);
+        }
+        if (end - begin <= 8) {
+            return;
+        }
+        const dvec3 size = nodes_[index].box.size();
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+        const std::size_t middle = (begin + end) / 2;
+        const auto at = [&](std::size_t i) { return order_.begin() + std::ptrdiff_t(i); };
+        std::nth_element(at(begin), at(middle), at(end),
+                         [&](std::uint32_t a, std::uint32_t b) { return places_[a].point[axis] < places_[b].point[axis]; });
+        build(begin, middle);
+        nodes_[index].second = nodes_.size();
+        build(middle, end);
+    }
+    template <class F> void find(std::size_t index, const DBox3& box, F& visit) const {
+        const Branch& branch = nodes_[index];
+        for (int k = 0; k < 3; ++k) {
+            if (branch.box.min[k] > box.max[k] || branch.box.max[k] < box.min[k]) {
+                return;
+            }
+        }
+        if (branch.second != 0) {
+            find(index + 1, box, visit);
+            find(branch.second, box, visit);
+            return;
+        }
+        for (std::size_t i = branch.begin; i < branch.end; ++i) {
+            const dvec3& p = places_[order_[i]].point;
+            if (p == glm::clamp(p, box.min, box.max)) {
+                visit(order_[i]);
+            }
+        }
+    }
+
+    std::span<const SensorPlace> places_;
+    std::vector<std::uint32_t> order_;
+    std::vector<Branch> nodes_;
+};
+
 } // namespace
 
-SensorReading read_surface(const Scene& scene, const Solution& solution, const dvec3& point, const dvec3& normal) {
-    SensorReading out;
-    double best = kReach;
+std::vector<SensorReading> read_surfaces(const Scene& scene, const Solution& solution, std::span<const SensorPlace> places) {
+    std::vector<SensorReading> out(places.size());
+    std::vector<double> best(places.size(), kReach);
+    const PointTree tree(places);
+    const auto grown = [](DBox3 box) {
+        box.min -= dvec3(kReach);
+        box.max += dvec3(kReach);
+        return box;
+    };
     for (const auto& layer : solution.surfaces) {
-        const DBox3 box = scene.world_bounds(layer->node);
+        const DBox3 bounds = scene.world_bounds(layer->node);
         const Node* node = scene.nodes.find(layer->node);
-        if (node == nullptr || box.empty() || glm::length(point - glm::clamp(point, box.min, box.max)) > kReach) {
+        if (node == nullptr || bounds.empty()) {
+            continue;
+        }
+        bool any = false;
+        tree.find(grown(bounds), [&](std::uint32_t) { any = true; });
+        if (!any) {
             continue;
         }
         const Material* material = scene.material_of(*node, layer->part);
@@ -71,25 +152,39 @@ SensorReading read_surface(const Scene& scene, const Solution& solution, const d
                 continue;
             }
             face *= (mirrored ? -1.0 : 1.0) / length;
-            const double cosine = glm::dot(face, normal);
-            const bool back = cosine < 0.0;
-            if (std::abs(cosine) < 0.7 || (back && layer->irradiance_back.empty())) {
-                continue;
-            }
-            const dvec2 w = closest_on_triangle(point, a, b, c);
-            const dvec3 nearest = a * (1.0 - w.x - w.y) + b * w.x + c * w.y;
-            const double distance = glm::length(nearest - point);
-            if (distance < best) {
-                best = distance;
-                out.irradiance = irradiance_at(*layer, {v[0], v[1], v[2]}, vec3(dvec3(1.0 - w.x - w.y, w.x, w.y)), back);
-                out.on_surface = true;
-            }
+            DBox3 box;
+            box.add(a);
+            box.add(b);
+            box.add(c);
+            tree.find(grown(box), [&](std::uint32_t i) {
+                const double cosine = glm::dot(face, places[i].normal);
+                const bool back = cosine < 0.0;
+                if (std::abs(cosine) < 0.7 || (back && !layer->has_back())) {
+                    return;
+                }
+                const dvec2 w = closest_on_triangle(places[i].point, a, b, c);
+                const dvec3 nearest = a * (1.0 - w.x - w.y) + b * w.x + c * w.y;
+                const double distance = glm::length(nearest - places[i].point);
+                if (distance < best[i]) {
+                    best[i] = distance;
+                    out[i].irradiance =
+                        irradiance_at(*layer, {v[0], v[1], v[2]}, vec3(dvec3(1.0 - w.x - w.y, w.x, w.y)), back);
+                    out[i].on_surface = true;
+                }
+            });
         }
     }
-    if (out.on_surface) {
-        out.standard_error = double(luminance(out.irradiance)) * solution.statistics.error_estimate;
+    for (SensorReading& reading : out) {
+        if (reading.on_surface) {
+            reading.standard_error = double(luminance(reading.irradiance)) * solution.statistics.error_estimate;
+        }
     }
     return out;
+}
+
+SensorReading read_surface(const Scene& scene, const Solution& solution, const dvec3& point, const dvec3& normal) {
+    const SensorPlace place{point, normal};
+    return read_surfaces(scene, solution, {&place, 1}).front();
 }
 
 } // namespace atrium

@@ -31,7 +31,7 @@ class Requests(CliTest):
     def test_help_and_version(self):
         self.assertIn("solve", self.run_cli("--help").stdout)
         self.assertRegex(self.run_cli("--version").stdout, r"^atrium-cli \d+\.\d+\.\d+\n$")
-        for name in ("info", "check", "solve", "measure", "render", "compare", "convert"):
+        for name in ("info", "check", "solve", "measure", "render", "reference", "compare", "convert"):
             self.assertIn("FILE" if name not in ("compare", "convert") else name, self.run_cli(name, "--help").stdout)
 
     def test_wrong_requests(self):
@@ -330,6 +330,78 @@ class Render(CliTest):
         self.refused("render", self.room, "-o", self.path("a.png"), "--camera", "9")
         for size in ("64", "64x", "0x64", "64x-1", "64x48x2", "99999x10", "axb"):
             self.refused("render", self.room, "-o", self.path("a.png"), "--size=" + size, says=[size])
+
+
+class Reference(CliTest):
+    def test_points_and_columns(self):
+        points = self.write("p.csv", POINTS)
+        done = self.run_cli("reference", self.room, "--points", points, "--error", "0.01", "--time", "200")
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(done.stdout.splitlines()[0], "x,y,z,nx,ny,nz,E_r,E_g,E_b,E,stderr,on_surface")
+        rows = self.rows(done.stdout)
+        self.assertEqual(len(rows), 3)
+        for row in rows:
+            self.assertEqual(row["on_surface"], 1)
+            self.assertAlmostEqual(row["E"], 0.2126 * row["E_r"] + 0.7152 * row["E_g"] + 0.0722 * row["E_b"], delta=1e-3)
+            self.assertLessEqual(row["stderr"], 0.01 * row["E"])
+        # Below the lamp of 1 m2 and 1000 cd/m2 at 2.49 m, whose form factor is 4 x 0.01218; the walls add to that.
+        self.assertGreater(rows[0]["E"], 1000 * 3.14159 * 0.0487)
+        again = self.run_cli("reference", self.room, "--points", points, "--error", "0.01", "--time", "200", "--threads", "1")
+        self.assertEqual(again.stdout, done.stdout)
+        other = self.run_cli("reference", self.room, "--points", points, "--error", "0.01", "--time", "200", "--seed", "9")
+        for a, b in zip(rows, self.rows(other.stdout)):
+            self.assertNotEqual(a["E"], b["E"])
+            self.assertAlmostEqual(a["E"], b["E"], delta=6 * (a["stderr"] + b["stderr"]))
+
+    def test_time_limit_is_a_normal_end(self):
+        points = self.write("p.csv", POINTS)
+        start = time.monotonic()
+        self.run_cli("reference", self.room, "--points", points, "--time", "2", "-o", self.path("r.csv"))
+        self.assertLess(time.monotonic() - start, 20)
+        self.assertEqual(len(self.rows(self.read("r.csv"))), 3)
+        # An error that was asked for and not reached is not: what there was is written.
+        self.run_cli("reference", self.room, "--points", points, "--time", "2", "--error", "1e-6", "-o", self.path("s.csv"),
+                     status=2)
+        self.assertEqual(len(self.rows(self.read("s.csv"))), 3)
+
+    def test_nothing_is_made_up_without_time(self):
+        points = self.write("p.csv", POINTS)
+        done = self.run_cli("reference", self.room, "--points", points, "--time", "0.001", "-o", self.path("r.csv"), status=2)
+        self.assertIn("stopped before the first estimate", done.stderr)
+        self.assertFalse(os.path.exists(self.path("r.csv")))
+
+    def test_signal(self):
+        points = self.write("p.csv", POINTS)
+        process = subprocess.Popen([CLI, "reference", self.room, "--points", points, "--time", "100", "-o", self.path("r.csv")],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        time.sleep(2.0)
+        process.send_signal(signal.SIGINT)
+        _, message = process.communicate(timeout=20)
+        self.assertEqual(process.returncode, 2, message)
+        self.assertIn(b"stopped by a signal", message)
+        self.assertEqual(len(self.rows(self.read("r.csv"))), 3)
+
+    def test_picture(self):
+        self.run_cli("reference", self.room, "--camera", "Front", "-o", self.path("a.exr"), "--size", "48x32", "--time", "4")
+        with open(self.path("a.exr"), "rb") as f:
+            head = f.read(400)
+        self.assertEqual(head[:4], b"\x76\x2f\x31\x01")
+        self.assertIn(b"standard_error.Y", head)
+        # The light solution sees the same room.
+        self.run_cli("render", self.room, "-o", self.path("b.exr"), "--camera", "Front", "--size", "48x32")
+        figures = json.loads(self.run_cli("compare", self.path("b.exr"), self.path("a.exr"), "--json").stdout)
+        self.assertLess(abs(figures["mean_relative_bias"]), 0.1)
+        self.run_cli("reference", self.room, "--camera", "0", "-o", self.path("a.png"), "--size", "16x16", "--time", "2")
+
+    def test_wrong_requests(self):
+        points = self.write("p.csv", POINTS)
+        self.refused("reference", self.room, says=["nothing is asked for"])
+        self.refused("reference", self.room, "--points", points, "--camera", "0", says=["exclude"])
+        self.refused("reference", self.room, "--camera", "0", says=["-o"])
+        self.refused("reference", self.room, "--camera", "0", "-o", self.path("a.jpg"), says=["a.jpg"])
+        self.refused("reference", self.room, "--camera", "Nobody", "-o", self.path("a.exr"), says=["Nobody"])
+        self.refused("reference", self.room, "--points", self.path("none.csv"), says=["none.csv"])
+        self.refused("reference", self.path("none.glb"), "--points", points, says=["none.glb"])
 
 
 class Compare(CliTest):
