@@ -17,9 +17,10 @@ constexpr std::size_t kGrain = 32;
 
 } // namespace
 
-LightPart::LightPart(const LightSheets& sheets, const DirectFunction& direct, const std::vector<LightPart>& before,
+LightPart::LightPart(const LightSheets& sheets, const DirectPart& part, const std::vector<LightPart>& before,
                      const DirectMapSettings& settings, TileBudget& budget, const RunContext& context)
-    : sheets_(sheets), direct_(direct), before_(before), settings_(settings), budget_(budget), context_(context),
+    : sheets_(sheets), part_(part), before_(before), settings_(settings), budget_(budget), context_(context),
+      finest_(settings.max_level - (part.soft && settings.max_level > settings.first_level ? 1 : 0)),
       cells_(settings.first_level, settings.max_level) {
     for (const LightSheet& s : sheets.sheets()) {
         cells_.add_sheet(s.chart->tiles_u, s.chart->tiles_v, s.used);
@@ -71,7 +72,9 @@ std::vector<LightCell> LightPart::first_cells() {
                         cells_.find_or_add(i, c.x + (k & 1U) * s, c.y + (k >> 1U) * s);
                     }
                     ask_for_nodes(c.level);
-                    ask_for_probe(c);
+                    if (!part_.soft) {
+                        ask_for_probe(c);
+                    }
                     fresh.push_back(c);
                 }
             }
@@ -157,7 +160,7 @@ void LightPart::take(const Request& request) {
     DirectSample light;
     State state = State::Void;
     if (const auto place = sheets_.locate(request.sheet, request.at, request.reach)) {
-        light = direct_(place->point, place->normal);
+        light = part_.light(place->point, place->normal);
         const bool dark = luminance(light.irradiance) < settings_.light_floor;
         const bool covered = dark && is_covered(sheets_.rays(), place->point, place->normal, settings_.cover_reach);
         state = covered ? State::Covered : State::Known;
@@ -296,7 +299,7 @@ void LightPart::examine(const std::vector<LightCell>& fresh, std::vector<Rough>&
     std::vector<float> errors(fresh.size(), 0.0F);
     parallel_chunks(fresh.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context_.should_stop(); ++i) {
-            errors[i] = fresh[i].level < cells_.max_level() ? error(fresh[i]) : 0.0F;
+            errors[i] = fresh[i].level < finest_ ? error(fresh[i]) : 0.0F;
         }
     });
     for (std::size_t i = 0; i < fresh.size(); ++i) {
@@ -329,7 +332,7 @@ void LightPart::look_beside(std::size_t first_new, std::vector<Rough>& rough) co
 LightPart::Rough LightPart::beside(const LightNode& n, std::size_t quadrant) const {
     const auto cell = cells_.leaf(n.sheet, std::int64_t(n.x) - std::int64_t(quadrant & 1U),
                                   std::int64_t(n.y) - std::int64_t(quadrant >> 1U));
-    if (!cell || cell->level >= cells_.max_level() || n.state == State::Void) {
+    if (!cell || cell->level >= finest_ || n.state == State::Void) {
         return {};
     }
     const std::uint32_t s = cells_.steps(cell->level), dx = n.x - cell->x, dy = n.y - cell->y;

@@ -16,7 +16,7 @@ namespace atrium {
 class LightPart {
 public:
     /// All arguments must outlive it. `before` are parts that are done: errors are judged against their light too.
-    LightPart(const LightSheets& sheets, const DirectFunction& direct, const std::vector<LightPart>& before,
+    LightPart(const LightSheets& sheets, const DirectPart& part, const std::vector<LightPart>& before,
               const DirectMapSettings& settings, TileBudget& budget, const RunContext& context);
 
     /// Samples and divides until all is smooth, as fine as allowed, or the budget is spent; false when asked to stop.
@@ -72,11 +72,12 @@ private:
     [[nodiscard]] std::size_t probe_index(const LightCell& cell) const;
 
     const LightSheets& sheets_;
-    const DirectFunction& direct_;
+    const DirectPart& part_;
     const std::vector<LightPart>& before_;
     const DirectMapSettings& settings_;
     TileBudget& budget_;
     const RunContext& context_;
+    unsigned finest_; ///< level below which this part's cells are not divided
     LightCells cells_;
     std::vector<std::size_t> first_probe_; ///< per sheet; a probe per cell of the first level, row by row
     std::vector<Probe> probes_;

@@ -29,14 +29,14 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     double usual_error = 0.05;
     switch (quality) {
     case SolverSettings::Quality::Draft:
-        set(0.4F, 0.2F, 1e-3F, 4, 1.0F, 0.12F, 0.15F, 0.05F, 96, 24, 4, 36);
+        set(0.4F, 0.2F, 1e-3F, 4, 1.0F, 0.12F, 0.15F, 0.05F, 96, 24, 16, 36);
         out.refine_rounds = 1;
         out.solver_tolerance = 1e-3;
         usual_error = 0.10;
         break;
-    case SolverSettings::Quality::Normal: set(0.2F, 0.12F, 2e-4F, 8, 0.5F, 0.03F, 0.06F, 0.02F, 192, 80, 12, 96); break;
+    case SolverSettings::Quality::Normal: set(0.2F, 0.12F, 2e-4F, 8, 0.5F, 0.03F, 0.06F, 0.02F, 192, 80, 64, 96); break;
     case SolverSettings::Quality::Fine:
-        set(0.1F, 0.06F, 5e-5F, 16, 0.25F, 0.015F, 0.03F, 0.008F, 400, 192, 32, 256);
+        set(0.1F, 0.06F, 5e-5F, 16, 0.25F, 0.015F, 0.03F, 0.008F, 400, 192, 128, 256);
         out.refine_rounds = 3;
         out.solver_tolerance = 1e-5;
         usual_error = 0.02;
