@@ -45,7 +45,7 @@ public:
     DirectMapBuild(const RayScene& rays, std::span<const SurfaceCharts> charts,
                    const std::function<bool(std::uint32_t)>& back_lit, const DirectMapSettings& settings,
                    const RunContext& context)
-        : charts_(charts), sheets_(rays, charts, back_lit), settings_(settings), context_(context),
+        : charts_(charts), sheets_(rays, charts, back_lit, context), settings_(settings), context_(context),
           budget_(settings.max_samples) {
         for (const LightSheet& s : sheets_.sheets()) {
             for (const std::uint8_t used : s.used) {

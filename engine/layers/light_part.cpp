@@ -60,22 +60,23 @@ std::size_t LightPart::evaluations() const {
 
 std::vector<LightCell> LightPart::first_cells() {
     std::vector<LightCell> fresh;
-    std::vector<LightCell> leaves;
-    for (std::uint32_t i = 0; i < sheets_.sheets().size(); ++i) {
-        const Chart& chart = *sheets_.sheets()[i].chart;
-        for (std::uint32_t v = 0; v < chart.tiles_v; ++v) {
-            for (std::uint32_t u = 0; u < chart.tiles_u; ++u) {
-                cells_.leaves(i, u, v, leaves);
-                for (const LightCell& c : leaves) {
-                    const std::uint32_t s = cells_.steps(c.level);
-                    for (std::uint32_t k = 0; k < 4; ++k) {
-                        cells_.find_or_add(i, c.x + (k & 1U) * s, c.y + (k >> 1U) * s);
-                    }
-                    ask_for_nodes(c.level);
-                    if (!part_.soft) {
-                        ask_for_probe(c);
-                    }
-                    fresh.push_back(c);
+    const unsigned level = cells_.first_level();
+    const std::uint32_t s = cells_.steps(level), n = 1U << level;
+    for (std::uint32_t i = 0; i < sheets_.sheets().size() && !context_.should_stop(); ++i) {
+        const LightSheet& sheet = sheets_.sheets()[i];
+        for (std::uint32_t tile = 0; tile < sheet.used.size(); ++tile) {
+            if (sheet.used[tile] == 0) {
+                continue;
+            }
+            const std::uint32_t x = tile % sheet.chart->tiles_u * n * s, y = tile / sheet.chart->tiles_u * n * s;
+            for (std::uint32_t k = 0; k < (n + 1) * (n + 1); ++k) {
+                cells_.find_or_add(i, x + k % (n + 1) * s, y + k / (n + 1) * s);
+            }
+            ask_for_nodes(level);
+            for (std::uint32_t k = 0; k < n * n; ++k) {
+                fresh.push_back({i, x + k % n * s, y + k / n * s, level});
+                if (!part_.soft) {
+                    ask_for_probe(fresh.back());
                 }
             }
         }
@@ -363,7 +364,11 @@ std::vector<LightCell> LightPart::divide(std::vector<Rough>& rough) {
     budget_.grow(wishes);
     std::vector<LightCell> fresh;
     fresh.reserve(4 * rough.size());
-    for (const Rough& r : rough) {
+    for (std::size_t i = 0; i < rough.size(); ++i) {
+        if (i % 4096 == 0 && context_.should_stop()) {
+            break;
+        }
+        const Rough& r = rough[i];
         const std::uint32_t tile = cells_.tile_index(r.cell);
         if (r.cell.level + 1 > budget_.level(tile)) {
             continue; // a tile grows as a whole, and this one may not
