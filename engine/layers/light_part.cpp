@@ -33,6 +33,7 @@ bool LightPart::run(double from, double to) {
     std::vector<LightCell> fresh = first_cells();
     double at = from + 0.5 * (to - from);
     bool going_on = sample(from, at);
+    leave_out_dark_sheets(fresh);
     std::vector<Rough> rough;
     while (going_on && !(fresh.empty() && rough.empty())) {
         examine(fresh, rough);
@@ -45,6 +46,18 @@ bool LightPart::run(double from, double to) {
         look_beside(first_new, rough);
     }
     return going_on;
+}
+
+// Where no sample on a whole sheet is lit there is no edge to look for.
+void LightPart::leave_out_dark_sheets(std::vector<LightCell>& fresh) const {
+    std::vector<std::uint8_t> lit(sheets_.sheets().size(), 0);
+    for (const LightNode& n : cells_.nodes) {
+        lit[n.sheet] |= max_component(n.irradiance) > 0.0F ? 1 : 0;
+    }
+    for (const LightCell& c : fresh) {
+        lit[c.sheet] |= probes_[probe_index(c)].seen.light > 0.0F ? 1 : 0;
+    }
+    std::erase_if(fresh, [&](const LightCell& c) { return lit[c.sheet] == 0; });
 }
 
 std::size_t LightPart::evaluations() const {
@@ -236,13 +249,14 @@ float LightPart::error(const LightCell& c) const {
     if (known == 0) {
         return 0.0F;
     }
+    const bool lit = light > 0.0F;
     const float others = other_light(c);
     light += others;
     const Probe& probe = probes_[probe_index(c)];
     const vec2 at = probe.at - vec2(float(c.x), float(c.y));
     const bool probed = at.x >= 0.0F && at.y >= 0.0F && at.x < float(s) && at.y < float(s);
     const bool wide = edge_metres(c) > kCoverEdge;
-    float worst = wide && (covered > 0 || (probed && probe.covered)) ? 2.0F * settings_.contrast : 0.0F;
+    float worst = wide && lit && (covered > 0 || (probed && probe.covered)) ? 2.0F * settings_.contrast : 0.0F;
     // Edges of the cell as pairs of corners: two along u, two along v.
     static constexpr std::size_t kEdges[4][2] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}};
     for (std::size_t e = 0; e < 4; ++e) {
@@ -341,7 +355,8 @@ LightPart::Rough LightPart::beside(const LightNode& n, std::size_t quadrant) con
         return {}; // its own corner
     }
     if (n.state == State::Covered) {
-        return {*cell, edge_metres(*cell) > kCoverEdge ? 2.0F * settings_.contrast : 0.0F};
+        const bool lit = cells_.interpolate(*cell, float(dx), float(dy)).light > 0.0F;
+        return {*cell, lit && edge_metres(*cell) > kCoverEdge ? 2.0F * settings_.contrast : 0.0F};
     }
     return {*cell, off(*cell, {luminance(n.irradiance), n.variance, true}, float(dx), float(dy))};
 }

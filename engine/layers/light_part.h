@@ -49,6 +49,7 @@ private:
     };
 
     std::vector<LightCell> first_cells();
+    void leave_out_dark_sheets(std::vector<LightCell>& fresh) const;
     void ask_for_nodes(unsigned level);
     void ask_for_probe(const LightCell& cell);
     bool sample(double from, double to);
