@@ -54,8 +54,8 @@ struct DirectMaps {
 /// are those that an edge runs into. Everything else is interpolated, so the cost follows the length of the edges. Each part
 /// is looked for by itself: where one has a sharp edge, the others need not be asked again. Errors are judged against the
 /// light of the part and of those before it: the strongest and cheapest comes first. `back_lit(surface)` tells whether the
-/// back side can receive light at all. Same result for any number of threads; stops within a few milliseconds when asked.
-/// Engine thread.
+/// back side can receive light at all. Same result for any number of threads; when asked to stop it does so after the chunks
+/// of samples or the steps of bookkeeping at hand: milliseconds in a room, tens of them in a house. Engine thread.
 DirectMaps build_direct_maps(const RayScene& rays, std::span<const SurfaceCharts> charts, std::span<const DirectPart> parts,
                              const std::function<bool(std::uint32_t surface)>& back_lit, const DirectMapSettings& settings,
                              const RunContext& context, double progress_from, double progress_to);

@@ -217,6 +217,18 @@ float LightPart::bend(const LightCell& c, const LightGuess& a, const LightGuess&
     return relative(0.3F * least, 0.25F * (a.variance + b.variance), light);
 }
 
+// Whether this part shines at a cell or one beside it: only there can an edge begin at what covers the surface.
+bool LightPart::lit_around(const LightCell& c) const {
+    const std::int64_t s = cells_.steps(c.level);
+    for (std::int64_t k = 0; k < 16; ++k) {
+        const LightGuess g = cells_.guess(c.sheet, c.x + (k % 4 - 1) * s, c.y + (k / 4 - 1) * s);
+        if (g.known && g.light > 0.0F) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // Where a covered node follows a known one, an edge that comes in beside them may run on under the cover, or may not: how
 // much the light changes on the way to the known one.
 float LightPart::change_at_cover(const LightCell& c, std::uint32_t known, std::uint32_t covered, float light) const {
@@ -249,14 +261,13 @@ float LightPart::error(const LightCell& c) const {
     if (known == 0) {
         return 0.0F;
     }
-    const bool lit = light > 0.0F;
     const float others = other_light(c);
     light += others;
     const Probe& probe = probes_[probe_index(c)];
     const vec2 at = probe.at - vec2(float(c.x), float(c.y));
     const bool probed = at.x >= 0.0F && at.y >= 0.0F && at.x < float(s) && at.y < float(s);
     const bool wide = edge_metres(c) > kCoverEdge;
-    float worst = wide && lit && (covered > 0 || (probed && probe.covered)) ? 2.0F * settings_.contrast : 0.0F;
+    float worst = wide && (covered > 0 || (probed && probe.covered)) && lit_around(c) ? 2.0F * settings_.contrast : 0.0F;
     // Edges of the cell as pairs of corners: two along u, two along v.
     static constexpr std::size_t kEdges[4][2] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}};
     for (std::size_t e = 0; e < 4; ++e) {
@@ -355,8 +366,7 @@ LightPart::Rough LightPart::beside(const LightNode& n, std::size_t quadrant) con
         return {}; // its own corner
     }
     if (n.state == State::Covered) {
-        const bool lit = cells_.interpolate(*cell, float(dx), float(dy)).light > 0.0F;
-        return {*cell, lit && edge_metres(*cell) > kCoverEdge ? 2.0F * settings_.contrast : 0.0F};
+        return {*cell, edge_metres(*cell) > kCoverEdge && lit_around(*cell) ? 2.0F * settings_.contrast : 0.0F};
     }
     return {*cell, off(*cell, {luminance(n.irradiance), n.variance, true}, float(dx), float(dy))};
 }

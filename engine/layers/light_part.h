@@ -58,6 +58,7 @@ private:
     [[nodiscard]] float relative(float difference, float variance, float light) const;
     [[nodiscard]] float bend(const LightCell& cell, const LightGuess& a, const LightGuess& b, const LightNode& start,
                              bool along_u, float light) const;
+    [[nodiscard]] bool lit_around(const LightCell& cell) const;
     [[nodiscard]] float change_at_cover(const LightCell& cell, std::uint32_t known, std::uint32_t covered,
                                         float light) const;
     [[nodiscard]] float off(const LightCell& cell, const LightGuess& seen, float dx, float dy) const;
