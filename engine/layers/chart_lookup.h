@@ -22,7 +22,8 @@ struct ChartPoint {
 /// (uv - (tile_u, tile_v)) * scale. Immutable; safe from any thread.
 class ChartLookup {
 public:
-    /// `triangles` are those of the chart, indices into `charts.uv`.
+    ChartLookup() = default; ///< of nothing: not to be asked
+    /// `triangles` are those of the chart, ascending indices into `charts.uv`.
     ChartLookup(const SurfaceCharts& charts, const Chart& chart, std::span<const std::uint32_t> triangles);
 
     /// True when a triangle reaches into the tile (counted from the chart's rectangle), not merely up to its edge.

@@ -45,7 +45,7 @@ public:
     DirectMapBuild(const RayScene& rays, std::span<const SurfaceCharts> charts,
                    const std::function<bool(std::uint32_t)>& back_lit, const DirectMapSettings& settings,
                    const RunContext& context)
-        : charts_(charts), sheets_(rays, charts, back_lit), settings_(settings), context_(context),
+        : charts_(charts), sheets_(rays, charts, back_lit, context), settings_(settings), context_(context),
           budget_(settings.max_samples) {
         for (const LightSheet& s : sheets_.sheets()) {
             for (const std::uint8_t used : s.used) {
@@ -54,7 +54,7 @@ public:
         }
     }
 
-    DirectMaps run(std::span<const DirectFunction> lights, double from, double to) {
+    DirectMaps run(std::span<const DirectPart> lights, double from, double to) {
         parts_.reserve(lights.size());
         for (std::size_t i = 0; i < lights.size(); ++i) {
             LightPart part(sheets_, lights[i], parts_, settings_, budget_, context_);
@@ -150,10 +150,9 @@ std::size_t DirectMaps::memory_bytes() const {
     return bytes;
 }
 
-DirectMaps build_direct_maps(const RayScene& rays, std::span<const SurfaceCharts> charts,
-                             std::span<const DirectFunction> parts, const std::function<bool(std::uint32_t)>& back_lit,
-                             const DirectMapSettings& settings, const RunContext& context, double progress_from,
-                             double progress_to) {
+DirectMaps build_direct_maps(const RayScene& rays, std::span<const SurfaceCharts> charts, std::span<const DirectPart> parts,
+                             const std::function<bool(std::uint32_t)>& back_lit, const DirectMapSettings& settings,
+                             const RunContext& context, double progress_from, double progress_to) {
     ATRIUM_CHECK(charts.size() == rays.surfaces().size());
     return DirectMapBuild(rays, charts, back_lit, settings, context).run(parts, progress_from, progress_to);
 }
@@ -161,7 +160,8 @@ DirectMaps build_direct_maps(const RayScene& rays, std::span<const SurfaceCharts
 DirectMaps build_direct_maps(const RayScene& rays, std::span<const SurfaceCharts> charts, const DirectFunction& direct,
                              const std::function<bool(std::uint32_t)>& back_lit, const DirectMapSettings& settings,
                              const RunContext& context, double progress_from, double progress_to) {
-    return build_direct_maps(rays, charts, std::span(&direct, 1), back_lit, settings, context, progress_from, progress_to);
+    const DirectPart part{direct, false};
+    return build_direct_maps(rays, charts, std::span(&part, 1), back_lit, settings, context, progress_from, progress_to);
 }
 
 } // namespace atrium

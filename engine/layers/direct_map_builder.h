@@ -17,6 +17,14 @@ namespace atrium {
 /// once and must give the same for the same point whenever it is asked.
 using DirectFunction = std::function<DirectSample(const vec3& point, const vec3& normal)>;
 
+/// A part of the direct light; all parts add up.
+struct DirectPart {
+    DirectFunction light;
+    /// From large sources only (sky through windows, panels): no streak is narrower than the first cells, so none is looked
+    /// for between the samples, and texels of twice the finest size will do. Saves half the calls and more.
+    bool soft = false;
+};
+
 /// How fine and how exact. Levels are for tiles of 0.32 m: at level k samples are 0.32 m / 2^k apart.
 struct DirectMapSettings {
     unsigned first_level = 2;  ///< everywhere at least: 8 cm (draft 1, fine 3)
@@ -41,17 +49,17 @@ struct DirectMaps {
 };
 
 /// Builds the light maps of all charted surfaces from light in parts that add up; `charts` has one entry per surface of
-/// `rays`. Samples start on a coarse grid with one more at a scattered place in each cell, so that narrow streaks of light
-/// are met somewhere; cells where the light differs from what its neighbours say are divided, and so are those that an edge
-/// runs into. Everything else is interpolated, so the cost follows the length of the edges. Each part is looked for by
-/// itself: where one has a sharp edge, the others need not be asked again. Errors are judged against the light of the part
-/// and of those before it: the strongest and cheapest comes first. `back_lit(surface)` tells whether the back side can
-/// receive light at all. Same result for any number of threads; stops within a few milliseconds when asked. Engine thread.
-DirectMaps build_direct_maps(const RayScene& rays, std::span<const SurfaceCharts> charts,
-                             std::span<const DirectFunction> parts,
+/// `rays`. Samples start on a coarse grid with one more at a scattered place in each cell (not in soft parts), so that
+/// narrow streaks of light are met somewhere; cells where the light differs from what its neighbours say are divided, and so
+/// are those that an edge runs into. Everything else is interpolated, so the cost follows the length of the edges. Each part
+/// is looked for by itself: where one has a sharp edge, the others need not be asked again. Errors are judged against the
+/// light of the part and of those before it: the strongest and cheapest comes first. `back_lit(surface)` tells whether the
+/// back side can receive light at all. Same result for any number of threads; when asked to stop it does so after the chunks
+/// of samples or the steps of bookkeeping at hand: milliseconds in a room, tens of them in a house. Engine thread.
+DirectMaps build_direct_maps(const RayScene& rays, std::span<const SurfaceCharts> charts, std::span<const DirectPart> parts,
                              const std::function<bool(std::uint32_t surface)>& back_lit, const DirectMapSettings& settings,
                              const RunContext& context, double progress_from, double progress_to);
-/// The same for light in one part.
+/// The same for light in one part, not soft.
 DirectMaps build_direct_maps(const RayScene& rays, std::span<const SurfaceCharts> charts, const DirectFunction& direct,
                              const std::function<bool(std::uint32_t surface)>& back_lit, const DirectMapSettings& settings,
                              const RunContext& context, double progress_from, double progress_to);

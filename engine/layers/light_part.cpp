@@ -17,9 +17,10 @@ constexpr std::size_t kGrain = 32;
 
 } // namespace
 
-LightPart::LightPart(const LightSheets& sheets, const DirectFunction& direct, const std::vector<LightPart>& before,
+LightPart::LightPart(const LightSheets& sheets, const DirectPart& part, const std::vector<LightPart>& before,
                      const DirectMapSettings& settings, TileBudget& budget, const RunContext& context)
-    : sheets_(sheets), direct_(direct), before_(before), settings_(settings), budget_(budget), context_(context),
+    : sheets_(sheets), part_(part), before_(before), settings_(settings), budget_(budget), context_(context),
+      finest_(settings.max_level - (part.soft && settings.max_level > settings.first_level ? 1 : 0)),
       cells_(settings.first_level, settings.max_level) {
     for (const LightSheet& s : sheets.sheets()) {
         cells_.add_sheet(s.chart->tiles_u, s.chart->tiles_v, s.used);
@@ -32,6 +33,7 @@ bool LightPart::run(double from, double to) {
     std::vector<LightCell> fresh = first_cells();
     double at = from + 0.5 * (to - from);
     bool going_on = sample(from, at);
+    leave_out_dark_sheets(fresh);
     std::vector<Rough> rough;
     while (going_on && !(fresh.empty() && rough.empty())) {
         examine(fresh, rough);
@@ -44,6 +46,18 @@ bool LightPart::run(double from, double to) {
         look_beside(first_new, rough);
     }
     return going_on;
+}
+
+// Where no sample on a whole sheet is lit there is no edge to look for.
+void LightPart::leave_out_dark_sheets(std::vector<LightCell>& fresh) const {
+    std::vector<std::uint8_t> lit(sheets_.sheets().size(), 0);
+    for (const LightNode& n : cells_.nodes) {
+        lit[n.sheet] |= max_component(n.irradiance) > 0.0F ? 1 : 0;
+    }
+    for (const LightCell& c : fresh) {
+        lit[c.sheet] |= probes_[probe_index(c)].seen.light > 0.0F ? 1 : 0;
+    }
+    std::erase_if(fresh, [&](const LightCell& c) { return lit[c.sheet] == 0; });
 }
 
 std::size_t LightPart::evaluations() const {
@@ -59,20 +73,23 @@ std::size_t LightPart::evaluations() const {
 
 std::vector<LightCell> LightPart::first_cells() {
     std::vector<LightCell> fresh;
-    std::vector<LightCell> leaves;
-    for (std::uint32_t i = 0; i < sheets_.sheets().size(); ++i) {
-        const Chart& chart = *sheets_.sheets()[i].chart;
-        for (std::uint32_t v = 0; v < chart.tiles_v; ++v) {
-            for (std::uint32_t u = 0; u < chart.tiles_u; ++u) {
-                cells_.leaves(i, u, v, leaves);
-                for (const LightCell& c : leaves) {
-                    const std::uint32_t s = cells_.steps(c.level);
-                    for (std::uint32_t k = 0; k < 4; ++k) {
-                        cells_.find_or_add(i, c.x + (k & 1U) * s, c.y + (k >> 1U) * s);
-                    }
-                    ask_for_nodes(c.level);
-                    ask_for_probe(c);
-                    fresh.push_back(c);
+    const unsigned level = cells_.first_level();
+    const std::uint32_t s = cells_.steps(level), n = 1U << level;
+    for (std::uint32_t i = 0; i < sheets_.sheets().size() && !context_.should_stop(); ++i) {
+        const LightSheet& sheet = sheets_.sheets()[i];
+        for (std::uint32_t tile = 0; tile < sheet.used.size(); ++tile) {
+            if (sheet.used[tile] == 0) {
+                continue;
+            }
+            const std::uint32_t x = tile % sheet.chart->tiles_u * n * s, y = tile / sheet.chart->tiles_u * n * s;
+            for (std::uint32_t k = 0; k < (n + 1) * (n + 1); ++k) {
+                cells_.find_or_add(i, x + k % (n + 1) * s, y + k / (n + 1) * s);
+            }
+            ask_for_nodes(level);
+            for (std::uint32_t k = 0; k < n * n; ++k) {
+                fresh.push_back({i, x + k % n * s, y + k / n * s, level});
+                if (!part_.soft) {
+                    ask_for_probe(fresh.back());
                 }
             }
         }
@@ -157,7 +174,7 @@ void LightPart::take(const Request& request) {
     DirectSample light;
     State state = State::Void;
     if (const auto place = sheets_.locate(request.sheet, request.at, request.reach)) {
-        light = direct_(place->point, place->normal);
+        light = part_.light(place->point, place->normal);
         const bool dark = luminance(light.irradiance) < settings_.light_floor;
         const bool covered = dark && is_covered(sheets_.rays(), place->point, place->normal, settings_.cover_reach);
         state = covered ? State::Covered : State::Known;
@@ -200,6 +217,18 @@ float LightPart::bend(const LightCell& c, const LightGuess& a, const LightGuess&
     return relative(0.3F * least, 0.25F * (a.variance + b.variance), light);
 }
 
+// Whether this part shines at a cell or one beside it: only there can an edge begin at what covers the surface.
+bool LightPart::lit_around(const LightCell& c) const {
+    const std::int64_t s = cells_.steps(c.level);
+    for (std::int64_t k = 0; k < 16; ++k) {
+        const LightGuess g = cells_.guess(c.sheet, c.x + (k % 4 - 1) * s, c.y + (k / 4 - 1) * s);
+        if (g.known && g.light > 0.0F) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // Where a covered node follows a known one, an edge that comes in beside them may run on under the cover, or may not: how
 // much the light changes on the way to the known one.
 float LightPart::change_at_cover(const LightCell& c, std::uint32_t known, std::uint32_t covered, float light) const {
@@ -238,7 +267,7 @@ float LightPart::error(const LightCell& c) const {
     const vec2 at = probe.at - vec2(float(c.x), float(c.y));
     const bool probed = at.x >= 0.0F && at.y >= 0.0F && at.x < float(s) && at.y < float(s);
     const bool wide = edge_metres(c) > kCoverEdge;
-    float worst = wide && (covered > 0 || (probed && probe.covered)) ? 2.0F * settings_.contrast : 0.0F;
+    float worst = wide && (covered > 0 || (probed && probe.covered)) && lit_around(c) ? 2.0F * settings_.contrast : 0.0F;
     // Edges of the cell as pairs of corners: two along u, two along v.
     static constexpr std::size_t kEdges[4][2] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}};
     for (std::size_t e = 0; e < 4; ++e) {
@@ -296,7 +325,7 @@ void LightPart::examine(const std::vector<LightCell>& fresh, std::vector<Rough>&
     std::vector<float> errors(fresh.size(), 0.0F);
     parallel_chunks(fresh.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context_.should_stop(); ++i) {
-            errors[i] = fresh[i].level < cells_.max_level() ? error(fresh[i]) : 0.0F;
+            errors[i] = fresh[i].level < finest_ ? error(fresh[i]) : 0.0F;
         }
     });
     for (std::size_t i = 0; i < fresh.size(); ++i) {
@@ -329,7 +358,7 @@ void LightPart::look_beside(std::size_t first_new, std::vector<Rough>& rough) co
 LightPart::Rough LightPart::beside(const LightNode& n, std::size_t quadrant) const {
     const auto cell = cells_.leaf(n.sheet, std::int64_t(n.x) - std::int64_t(quadrant & 1U),
                                   std::int64_t(n.y) - std::int64_t(quadrant >> 1U));
-    if (!cell || cell->level >= cells_.max_level() || n.state == State::Void) {
+    if (!cell || cell->level >= finest_ || n.state == State::Void) {
         return {};
     }
     const std::uint32_t s = cells_.steps(cell->level), dx = n.x - cell->x, dy = n.y - cell->y;
@@ -337,7 +366,7 @@ LightPart::Rough LightPart::beside(const LightNode& n, std::size_t quadrant) con
         return {}; // its own corner
     }
     if (n.state == State::Covered) {
-        return {*cell, edge_metres(*cell) > kCoverEdge ? 2.0F * settings_.contrast : 0.0F};
+        return {*cell, edge_metres(*cell) > kCoverEdge && lit_around(*cell) ? 2.0F * settings_.contrast : 0.0F};
     }
     return {*cell, off(*cell, {luminance(n.irradiance), n.variance, true}, float(dx), float(dy))};
 }
@@ -360,7 +389,11 @@ std::vector<LightCell> LightPart::divide(std::vector<Rough>& rough) {
     budget_.grow(wishes);
     std::vector<LightCell> fresh;
     fresh.reserve(4 * rough.size());
-    for (const Rough& r : rough) {
+    for (std::size_t i = 0; i < rough.size(); ++i) {
+        if (i % 4096 == 0 && context_.should_stop()) {
+            break;
+        }
+        const Rough& r = rough[i];
         const std::uint32_t tile = cells_.tile_index(r.cell);
         if (r.cell.level + 1 > budget_.level(tile)) {
             continue; // a tile grows as a whole, and this one may not

@@ -16,7 +16,7 @@ namespace atrium {
 class LightPart {
 public:
     /// All arguments must outlive it. `before` are parts that are done: errors are judged against their light too.
-    LightPart(const LightSheets& sheets, const DirectFunction& direct, const std::vector<LightPart>& before,
+    LightPart(const LightSheets& sheets, const DirectPart& part, const std::vector<LightPart>& before,
               const DirectMapSettings& settings, TileBudget& budget, const RunContext& context);
 
     /// Samples and divides until all is smooth, as fine as allowed, or the budget is spent; false when asked to stop.
@@ -49,6 +49,7 @@ private:
     };
 
     std::vector<LightCell> first_cells();
+    void leave_out_dark_sheets(std::vector<LightCell>& fresh) const;
     void ask_for_nodes(unsigned level);
     void ask_for_probe(const LightCell& cell);
     bool sample(double from, double to);
@@ -57,6 +58,7 @@ private:
     [[nodiscard]] float relative(float difference, float variance, float light) const;
     [[nodiscard]] float bend(const LightCell& cell, const LightGuess& a, const LightGuess& b, const LightNode& start,
                              bool along_u, float light) const;
+    [[nodiscard]] bool lit_around(const LightCell& cell) const;
     [[nodiscard]] float change_at_cover(const LightCell& cell, std::uint32_t known, std::uint32_t covered,
                                         float light) const;
     [[nodiscard]] float off(const LightCell& cell, const LightGuess& seen, float dx, float dy) const;
@@ -72,11 +74,12 @@ private:
     [[nodiscard]] std::size_t probe_index(const LightCell& cell) const;
 
     const LightSheets& sheets_;
-    const DirectFunction& direct_;
+    const DirectPart& part_;
     const std::vector<LightPart>& before_;
     const DirectMapSettings& settings_;
     TileBudget& budget_;
     const RunContext& context_;
+    unsigned finest_; ///< level below which this part's cells are not divided
     LightCells cells_;
     std::vector<std::size_t> first_probe_; ///< per sheet; a probe per cell of the first level, row by row
     std::vector<Probe> probes_;

@@ -1,5 +1,7 @@
 #include "engine/layers/light_sheets.h"
 
+#include "engine/base/parallel.h"
+
 #include <algorithm>
 
 namespace atrium {
@@ -12,34 +14,45 @@ constexpr float kPullIn = 0.002F;
 } // namespace
 
 LightSheets::LightSheets(const RayScene& rays, std::span<const SurfaceCharts> charts,
-                         const std::function<bool(std::uint32_t)>& back_lit)
+                         const std::function<bool(std::uint32_t)>& back_lit, const RunContext& context)
     : rays_(rays) {
+    std::vector<std::uint32_t> surface_of;
+    std::vector<std::vector<std::uint32_t>> members; // triangles of each chart, surface by surface
     for (std::uint32_t s = 0; s < charts.size(); ++s) {
         const SurfaceCharts& of = charts[s];
-        if (of.empty()) {
-            continue;
-        }
-        const bool back = rays.surfaces()[s].back_side && back_lit(s);
-        std::vector<std::vector<std::uint32_t>> members(of.charts.size());
-        for (std::uint32_t t = 0; t < of.chart_of_triangle.size(); ++t) {
+        const std::size_t first = members.size();
+        members.resize(first + of.charts.size());
+        surface_of.resize(members.size(), s);
+        for (std::uint32_t t = 0; t < of.chart_of_triangle.size() && !of.empty(); ++t) {
             if (of.chart_of_triangle[t] != SurfaceCharts::kNone) {
-                members[of.chart_of_triangle[t]].push_back(t);
+                members[first + of.chart_of_triangle[t]].push_back(t);
             }
         }
-        for (std::size_t c = 0; c < of.charts.size(); ++c) {
-            const Chart& chart = of.charts[c];
-            lookups_.emplace_back(of, chart, members[c]);
-            LightSheet sheet{s, false, &chart, lookups_.size() - 1, {}};
-            for (std::uint32_t v = 0; v < chart.tiles_v; ++v) {
-                for (std::uint32_t u = 0; u < chart.tiles_u; ++u) {
-                    sheet.used.push_back(lookups_.back().touches_tile(u, v) ? 1 : 0);
-                }
+    }
+    const auto chart_at = [&](std::size_t i) -> const Chart& {
+        const SurfaceCharts& of = charts[surface_of[i]];
+        const auto first = std::lower_bound(surface_of.begin(), surface_of.end(), surface_of[i]) - surface_of.begin();
+        return of.charts[i - std::size_t(first)];
+    };
+    lookups_.resize(members.size());
+    parallel_chunks(members.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
+            lookups_[i] = ChartLookup(charts[surface_of[i]], chart_at(i), members[i]);
+        }
+    });
+    for (std::size_t i = 0; i < members.size() && !context.should_stop(); ++i) {
+        const std::uint32_t s = surface_of[i];
+        const Chart& chart = chart_at(i);
+        LightSheet sheet{s, false, &chart, i, {}};
+        for (std::uint32_t v = 0; v < chart.tiles_v; ++v) {
+            for (std::uint32_t u = 0; u < chart.tiles_u; ++u) {
+                sheet.used.push_back(lookups_[i].touches_tile(u, v) ? 1 : 0);
             }
-            sheets_.push_back(sheet);
-            if (back) {
-                sheet.back = true;
-                sheets_.push_back(std::move(sheet));
-            }
+        }
+        sheets_.push_back(sheet);
+        if (rays.surfaces()[s].back_side && back_lit(s)) {
+            sheet.back = true;
+            sheets_.push_back(std::move(sheet));
         }
     }
 }

@@ -1,6 +1,7 @@
 // The sides of charts on which direct light is looked for, and where their places lie in space.
 #pragma once
 
+#include "engine/base/run_context.h"
 #include "engine/layers/chart_lookup.h"
 #include "engine/raycast/ray_scene.h"
 
@@ -23,9 +24,10 @@ struct LightSheet {
 /// All sheets of a scene, by surface; front before back for each chart. Immutable; safe from any thread.
 class LightSheets {
 public:
-    /// `rays` and `charts` (one entry per surface) must outlive it. `back_lit(surface)` as in build_direct_maps().
+    /// `rays` and `charts` (one entry per surface) must outlive it. `back_lit(surface)` as in build_direct_maps(). Not to be
+    /// used when `context` asked to stop meanwhile.
     LightSheets(const RayScene& rays, std::span<const SurfaceCharts> charts,
-                const std::function<bool(std::uint32_t)>& back_lit);
+                const std::function<bool(std::uint32_t)>& back_lit, const RunContext& context);
 
     [[nodiscard]] const std::vector<LightSheet>& sheets() const { return sheets_; }
     [[nodiscard]] const RayScene& rays() const { return rays_; }
@@ -43,7 +45,7 @@ private:
 
     const RayScene& rays_;
     std::vector<LightSheet> sheets_;
-    std::vector<ChartLookup> lookups_;
+    std::vector<ChartLookup> lookups_; ///< of all charts, surface by surface
 };
 
 } // namespace atrium

@@ -155,8 +155,9 @@ struct SkyGrid {
     int sectors = 0;
     std::vector<Rgb> seen;
     std::vector<std::uint8_t> known; ///< 1 = a ray of its own, 0 = its parent's answer
+    std::vector<std::uint8_t> edge;  ///< 1 = a neighbour sees differently
 
-    SkyGrid(int r, int s) : rings(r), sectors(s), seen(std::size_t(r * s)), known(std::size_t(r * s), 0) {}
+    SkyGrid(int r, int s) : rings(r), sectors(s), seen(std::size_t(r * s)), known(std::size_t(r * s), 0), edge(known) {}
     [[nodiscard]] std::size_t at(int ring, int sector) const {
         return std::size_t(ring * sectors + (sector + sectors) % sectors);
     }
@@ -186,29 +187,31 @@ void DirectLight::add_open_sky(const vec3& point, const vec3& normal, unsigned s
     const int base = std::max(2, int(std::lround(std::sqrt(float(sky_rays) / 4.0F))));
     SkyGrid grid(base, 4 * base);
     std::fill(grid.known.begin(), grid.known.end(), std::uint8_t(1));
+    std::vector<std::size_t> cells;
+    std::vector<vec3> directions;
+    std::vector<SkyRay> rays;
     for (int level = 0;; ++level) {
+        cells.clear();
+        directions.clear();
         for (int ring = 0; ring < grid.rings; ++ring) {
             for (int sector = 0; sector < grid.sectors; ++sector) {
                 if (grid.known[grid.at(ring, sector)] != 0) {
-                    const vec3 direction = grid.direction(ring, sector, t, b, normal);
-                    float pane = 0.0F;
-                    const Rgb through = rays_.transmittance_to_infinity(point, direction, pane);
-                    // What a pane lets through is counted with the pane.
-                    grid.seen[grid.at(ring, sector)] = std::isfinite(pane) ? Rgb(0.0F) : through;
+                    cells.push_back(grid.at(ring, sector));
+                    directions.push_back(grid.direction(ring, sector, t, b, normal));
                 }
             }
         }
+        rays.resize(cells.size());
+        rays_.look_at_sky(point, directions, rays);
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            // What a pane lets through is counted with the pane.
+            grid.seen[cells[i]] = std::isfinite(rays[i].first_pane) ? Rgb(0.0F) : rays[i].through;
+        }
         float edges = 0.0F;
-        SkyGrid finer(2 * grid.rings, 2 * grid.sectors);
         for (int ring = 0; ring < grid.rings; ++ring) {
             for (int sector = 0; sector < grid.sectors; ++sector) {
-                const bool edge = grid.on_edge(ring, sector);
-                edges += edge ? 1.0F : 0.0F;
-                for (int k = 0; k < 4; ++k) {
-                    const std::size_t child = finer.at(2 * ring + k / 2, 2 * sector + k % 2);
-                    finer.seen[child] = grid.seen[grid.at(ring, sector)];
-                    finer.known[child] = edge ? 1 : 0;
-                }
+                grid.edge[grid.at(ring, sector)] = grid.on_edge(ring, sector) ? 1 : 0;
+                edges += float(grid.edge[grid.at(ring, sector)]);
             }
         }
         if (level == 2 || edges == 0.0F) {
@@ -216,13 +219,21 @@ void DirectLight::add_open_sky(const vec3& point, const vec3& normal, unsigned s
             for (const Rgb& s : grid.seen) {
                 sum += s;
             }
-            const auto cells = float(grid.seen.size());
+            const auto count = float(grid.seen.size());
             const Rgb whole = sky_radiance_ * kPi;
-            out.irradiance += whole * sum / cells;
+            out.irradiance += whole * sum / count;
             // A cell on an edge is seen to some share between none and all: variance 1/12 of its light squared each.
-            const float cell = luminance(whole) / cells;
+            const float cell = luminance(whole) / count;
             out.variance += edges * cell * cell / 12.0F;
             return;
+        }
+        SkyGrid finer(2 * grid.rings, 2 * grid.sectors);
+        for (int ring = 0; ring < finer.rings; ++ring) {
+            for (int sector = 0; sector < finer.sectors; ++sector) {
+                const std::size_t child = finer.at(ring, sector), parent = grid.at(ring / 2, sector / 2);
+                finer.seen[child] = grid.seen[parent];
+                finer.known[child] = grid.edge[parent];
+            }
         }
         grid = std::move(finer);
     }
@@ -269,6 +280,11 @@ void DirectLight::add_sky_through_panes(const vec3& point, const vec3& normal, u
 DirectLight::PaneView DirectLight::look_through(std::size_t pane, const vec3& point, const vec3& normal,
                                                 unsigned count) const {
     PaneView view;
+    thread_local std::vector<vec3> directions;
+    thread_local std::vector<vec2> weight_and_distance;
+    thread_local std::vector<SkyRay> rays;
+    directions.clear();
+    weight_and_distance.clear();
     for (unsigned k = 0; k < count; ++k) {
         const vec3 y = k < kPanePoints ? pane_points_[pane * kPanePoints + k] : make_pane_point(panes_[pane], pane, k);
         const vec3 d = y - point;
@@ -277,15 +293,20 @@ DirectLight::PaneView DirectLight::look_through(std::size_t pane, const vec3& po
         if (!(distance2 > 0.0F) || cosine <= 0.0F) {
             continue;
         }
-        const float weight = cosine * std::abs(glm::dot(d, pane_normals_[pane])) / (distance2 * distance2);
+        const float distance = std::sqrt(distance2);
+        directions.push_back(d / distance);
+        weight_and_distance.emplace_back(cosine * std::abs(glm::dot(d, pane_normals_[pane])) / (distance2 * distance2),
+                                         distance);
+    }
+    rays.resize(directions.size());
+    rays_.look_at_sky(point, directions, rays);
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+        const float weight = weight_and_distance[k].x, distance = weight_and_distance[k].y;
         view.weights += weight;
         view.points += 1.0F;
-        const float distance = std::sqrt(distance2);
-        float first = 0.0F;
-        const Rgb through = rays_.transmittance_to_infinity(point, d / distance, first);
         // Where another pane stands before this one, the light is that one's.
-        if (max_component(through) > 0.0F && first >= distance * (1.0F - 1e-3F) - 1e-4F) {
-            view.seen += through * weight;
+        if (max_component(rays[k].through) > 0.0F && rays[k].first_pane >= distance * (1.0F - 1e-3F) - 1e-4F) {
+            view.seen += rays[k].through * weight;
             view.clear += 1.0F;
         }
     }

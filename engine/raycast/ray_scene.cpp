@@ -74,10 +74,11 @@ struct RayScene::Impl {
     std::atomic<std::size_t> bytes{0};
     bool any_filter = false;
 
-    void count_ray() {
+    void count_ray() { count_rays(1); }
+    void count_rays(std::size_t rays) {
         static std::atomic<unsigned> next{0};
         thread_local const unsigned slot = next.fetch_add(1) % 16;
-        counters[slot].value.fetch_add(1, std::memory_order_relaxed);
+        counters[slot].value.fetch_add(rays, std::memory_order_relaxed);
     }
 
     void collect() {
@@ -297,31 +298,63 @@ struct RayScene::Impl {
         return through;
     }
 
-    // `first_pane`, where given, becomes the distance of the first pane crossed.
-    Rgb transmit(const RayScene& self, const vec3& from, const vec3& direction, float tnear, float tfar,
-                 float* first_pane = nullptr) {
+    Rgb transmit(const RayScene& self, const vec3& from, const vec3& direction, float tnear, float tfar) {
         if (blocked(from, direction, tnear, tfar, kOpaqueMask)) {
             return Rgb(0.0F);
         }
-        Rgb through(1.0F);
-        if (!any_filter) {
-            return through;
-        }
-        for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
+        return cross_filters(self, from, direction, tnear, tfar).through;
+    }
+
+    // What filtering surfaces leave of the light on a way that nothing opaque blocks.
+    SkyRay cross_filters(const RayScene& self, const vec3& from, const vec3& direction, float tnear, float tfar) {
+        SkyRay out{Rgb(1.0F)};
+        for (int crossing = 0; any_filter && crossing < kMaxCrossings; ++crossing) {
             const Hit h = hit(filters, from, direction, tnear, tfar);
             if (!h) {
-                return through;
+                return out;
             }
-            if (first_pane != nullptr && surfaces[h.surface].pane) {
-                *first_pane = std::min(*first_pane, h.t);
+            if (surfaces[h.surface].pane) {
+                out.first_pane = std::min(out.first_pane, h.t);
             }
-            through *= filter(self, h, direction);
-            if (max_component(through) <= 1e-4F) {
-                break;
+            out.through *= filter(self, h, direction);
+            if (max_component(out.through) <= 1e-4F) {
+                return {};
             }
             tnear = h.t + std::max(1e-5F, 1e-6F * h.t);
         }
-        return Rgb(0.0F);
+        return any_filter ? SkyRay{} : out;
+    }
+
+    // Bit k is set where direction k (of at most 8) meets something opaque.
+    unsigned blocked_of_8(const vec3& from, std::span<const vec3> directions, float tnear) {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        alignas(32) int valid[8];
+        RTCRay8 rays;
+        for (std::size_t k = 0; k < 8; ++k) {
+            valid[k] = k < directions.size() ? -1 : 0;
+            const vec3& d = directions[std::min(k, directions.size() - 1)];
+            rays.org_x[k] = from.x;
+            rays.org_y[k] = from.y;
+            rays.org_z[k] = from.z;
+            rays.dir_x[k] = d.x;
+            rays.dir_y[k] = d.y;
+            rays.dir_z[k] = d.z;
+            rays.tnear[k] = tnear;
+            rays.tfar[k] = std::numeric_limits<float>::infinity();
+            rays.time[k] = 0.0F;
+            rays.mask[k] = kOpaqueMask;
+            rays.id[k] = 0;
+            rays.flags[k] = 0;
+        }
+        count_rays(directions.size());
+        rtcOccluded8(valid, embree, &context, &rays);
+        unsigned out = 0;
+        for (std::size_t k = 0; k < directions.size(); ++k) {
+            out |= rays.tfar[k] < 0.0F ? 1U << k : 0U;
+        }
+        return out;
     }
 
     template <class V>
@@ -397,10 +430,18 @@ Rgb RayScene::transmittance_to_infinity(const vec3& from, const vec3& direction)
     return impl_->transmit(*this, from, direction, end_offset(from), std::numeric_limits<float>::infinity());
 }
 
-Rgb RayScene::transmittance_to_infinity(const vec3& from, const vec3& direction, float& first_pane) const {
-    constexpr float kFar = std::numeric_limits<float>::infinity();
-    first_pane = kFar;
-    return impl_->transmit(*this, from, direction, end_offset(from), kFar, &first_pane);
+void RayScene::look_at_sky(const vec3& from, std::span<const vec3> directions, std::span<SkyRay> out) const {
+    ATRIUM_CHECK(directions.size() == out.size());
+    const float tnear = end_offset(from);
+    for (std::size_t first = 0; first < directions.size(); first += 8) {
+        const auto some = directions.subspan(first, std::min<std::size_t>(8, directions.size() - first));
+        const unsigned blocked = impl_->blocked_of_8(from, some, tnear);
+        for (std::size_t k = 0; k < some.size(); ++k) {
+            out[first + k] = (blocked >> k & 1U) != 0
+                                 ? SkyRay{}
+                                 : impl_->cross_filters(*this, from, some[k], tnear, std::numeric_limits<float>::infinity());
+        }
+    }
 }
 
 Rgb RayScene::transmittance(const Ray& ray) const {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace atrium {
@@ -45,6 +46,13 @@ struct Hit {
     explicit operator bool() const { return surface != kNone; }
 };
 
+/// What a ray without end meets.
+struct SkyRay {
+    Rgb through{0.0F}; ///< share of light that arrives: see RayScene::transmittance()
+    /// Distance of the first pane crossed, metres; infinite where none is or nothing arrives.
+    float first_pane = std::numeric_limits<float>::infinity();
+};
+
 /// Immutable once built; every query is safe from any thread. Coordinates are engine coordinates: see origin().
 class RayScene {
 public:
@@ -74,9 +82,8 @@ public:
     [[nodiscard]] Rgb transmittance(const vec3& from, const vec3& to) const;
     /// The same along a ray that never ends (sun, sky).
     [[nodiscard]] Rgb transmittance_to_infinity(const vec3& from, const vec3& direction) const;
-    /// The same, with the distance of the first pane crossed in `first_pane`; infinite where nothing arrives or no pane is
-    /// crossed.
-    [[nodiscard]] Rgb transmittance_to_infinity(const vec3& from, const vec3& direction, float& first_pane) const;
+    /// The same for many directions from one point, with the first pane that each crosses: one SkyRay for each direction.
+    void look_at_sky(const vec3& from, std::span<const vec3> directions, std::span<SkyRay> out) const;
 
     /// The same along a ray from its very origin to tmax; nothing is pulled in, so the caller keeps clear of the surfaces
     /// that the ends lie on.

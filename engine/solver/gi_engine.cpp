@@ -70,23 +70,38 @@ struct GiEngine::Impl {
 
     [[nodiscard]] bool nothing_direct() const { return punctual->empty() && emitters.empty(); }
     // Direct light in parts, the sharpest and cheapest first; none that the scene does not have. `settings` must outlive it.
-    [[nodiscard]] std::vector<DirectFunction> direct_parts(const GatherSettings& settings) const {
-        std::vector<DirectFunction> parts;
+    [[nodiscard]] std::vector<DirectPart> direct_parts(const GatherSettings& settings) const {
+        std::vector<DirectPart> parts;
         if (!punctual->lights().empty()) {
-            parts.emplace_back(
-                [&](const vec3& p, const vec3& n) { return punctual->lamps_irradiance(p, n, settings.sun_rays); });
+            parts.push_back(DirectPart{
+                [&](const vec3& p, const vec3& n) { return punctual->lamps_irradiance(p, n, settings.sun_rays); }, false});
         }
         if (!emitters.empty()) {
-            parts.emplace_back([&](const vec3& p, const vec3& n) { return lamps->irradiance(p, n, settings); });
+            parts.push_back(
+                DirectPart{[&](const vec3& p, const vec3& n) { return lamps->irradiance(p, n, settings); }, false});
         }
         if (punctual->has_sky()) {
-            parts.emplace_back(
-                [&](const vec3& p, const vec3& n) { return punctual->sky_irradiance(p, n, settings.sky_rays); });
+            parts.push_back(DirectPart{
+                [&](const vec3& p, const vec3& n) { return punctual->sky_irradiance(p, n, settings.sky_rays); }, true});
         }
         return parts;
     }
     [[nodiscard]] DirectSample direct_light(const vec3& point, const vec3& normal, const GatherSettings& settings) const {
         return direct->irradiance(point, normal, settings);
+    }
+
+    // What counts as dark before anything is solved: a twentieth of the mean direct light at a few hundred points, lux.
+    [[nodiscard]] float guess_floor(const QualitySettings& quality) const {
+        if (hierarchy.empty() || nothing_direct()) {
+            return 1e-3F;
+        }
+        constexpr std::uint32_t kPoints = 512;
+        const double sum = parallel_sum(kPoints, 16, 0.0, [&](std::size_t i) {
+            const vec2 u = sobol_owen2(std::uint32_t(i), 0, 0xF100DU);
+            const SurfacePoint p = sample_point(hierarchy, *rays, 0, u, false);
+            return double(luminance(direct_light(p.position, p.normal, quality.leaf_field.direct).irradiance));
+        });
+        return std::max(float(0.05 * sum / kPoints), 1e-6F);
     }
 
     // Lamps that stand out leave the hierarchy: what they send is gathered straight from them.
@@ -320,7 +335,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     statistics.time.build = seconds_since(start);
     s.name_emitters(quality.emitter_contrast);
 
-    float light_floor = 1e-3F; // lux, until the mean is known
+    float light_floor = s.guess_floor(quality);
     timer.next("charts");
     s.charts = chart_surfaces(*s.rays, quality.charts);
     // Double-sided surfaces may be lit from behind: the maps of sides on which nothing falls cost nothing.
@@ -335,7 +350,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
             s.maps.complete = true;
             return true;
         }
-        const std::vector<DirectFunction> parts = s.direct_parts(field.direct);
+        const std::vector<DirectPart> parts = s.direct_parts(field.direct);
         s.maps = build_direct_maps(
             *s.rays, s.charts, parts, [&](std::uint32_t surface) { return s.rays->surfaces()[surface].back_side; }, settings,
             context, from, to);

@@ -41,7 +41,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     switch (quality) {
     case SolverSettings::Quality::Draft:
         set(0.5F, 0.2F, 2e-3F, 4, 1.0F, 0.12F, 0.15F);
-        out.field = look(0.05F, 96, 24, 4, 36, 128);
+        out.field = look(0.05F, 96, 24, 16, 36, 128);
         out.maps.first_level = 1;
         out.maps.max_level = 4;
         out.maps.contrast = 0.06F;
@@ -78,7 +78,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         out.field.reflected.tolerance = float(out.field.reflected.tolerance / ratio);
         out.refine.flux_threshold = float(out.refine.flux_threshold / ratio);
     }
-    out.first_field = look(0.1F, 96, 16, 4, 24, 64);
+    out.first_field = look(0.1F, 96, 16, 8, 24, 64);
     out.leaf_field = look(0.05F, 96, 8, 1, std::max(out.field.direct.sky_rays / 8, 16U), 16);
     out.maps.cover_reach = 0.05F * unit;
     out.first_maps = out.maps;

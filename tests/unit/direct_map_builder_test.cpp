@@ -179,6 +179,37 @@ TEST(DirectMaps, CostFollowsTheLengthOfEdgesNotTheArea) {
     EXPECT_LT(extra[0], 0.02 * texels[0]);
 }
 
+// A sharp part over a soft one: both are there, and the sharp one's edge asks the soft one nothing.
+TEST(DirectMaps, PartsAddUpAndAreLookedForApart) {
+    const Stage stage(2.56F, 2.56F);
+    std::array<std::atomic<std::size_t>, 2> calls{};
+    const auto edge = half_plane(0.4, 0.3);
+    const auto soft = [](float x, float z) { return 200.0F + 60.0F * x + 30.0F * z; };
+    const DirectPart parts[] = {{on_floor([&](float x, float z) {
+                                     ++calls[0];
+                                     return edge(x, z);
+                                 }),
+                                 false},
+                                {on_floor([&](float x, float z) {
+                                     ++calls[1];
+                                     return soft(x, z);
+                                 }),
+                                 true}};
+    const DirectMaps maps = build_direct_maps(
+        *stage.rays, stage.charts, parts, [](std::uint32_t) { return false; }, stage.settings, stage.context, 0.0, 1.0);
+    ASSERT_TRUE(maps.complete && maps.front[0]);
+    EXPECT_EQ(calls[1], 33U * 33U) << "the first nodes, and no probes";
+    EXPECT_EQ(maps.evaluations, calls[0] + calls[1]);
+    for (double x = -1.27; x < 1.28; x += 0.0313) {
+        for (double z = -1.27; z < 1.28; z += 0.0297) {
+            if (std::abs(std::cos(0.4) * x + std::sin(0.4) * z - 0.3) > 0.0075) { // border samples are 2 mm inside
+                const float expected = edge(float(x), float(z)) + soft(float(x), float(z));
+                ASSERT_NEAR(stage.at(maps, x, z), expected, 0.2) << x << ", " << z;
+            }
+        }
+    }
+}
+
 // A smooth field is followed within the contrast asked for and without the finest texels.
 TEST(DirectMaps, SmoothLightIsFollowedWithinTheContrast) {
     const Stage stage(3.2F, 3.2F);
