@@ -12,64 +12,6 @@ namespace {
 using Kind = Element::Kind;
 constexpr std::uint32_t kRays = 24;
 
-/// Finds the leaf that a point of a triangle side belongs to.
-class LeafFinder {
-public:
-    LeafFinder(const Hierarchy& hierarchy, const RayScene& rays) : h_(hierarchy), first_(rays.surfaces().size()) {
-        std::size_t sides = 0;
-        for (std::size_t s = 0; s < first_.size(); ++s) {
-            first_[s] = sides;
-            sides += 2 * rays.surfaces()[s].triangles.size();
-        }
-        top_.assign(sides, Element::kNone);
-        for (std::uint32_t i = 0; i < h_.elements.size(); ++i) {
-            const Element& e = h_.elements[i];
-            const bool top = e.parent == Element::kNone || h_.elements[e.parent].kind != Kind::Patch;
-            if (e.kind == Kind::Patch && top) {
-                top_[side(e.surface, e.triangle, e.back)] = i;
-            } else if (e.kind == Kind::Faces) {
-                for (std::uint32_t f = e.triangle; f < e.triangle + e.face_count; ++f) {
-                    top_[side(h_.faces[f].surface, h_.faces[f].triangle, h_.faces[f].back)] = i;
-                }
-            }
-        }
-    }
-
-    [[nodiscard]] std::uint32_t find(const Hit& hit) const {
-        std::uint32_t at = top_[side(hit.surface, hit.triangle, !hit.front)];
-        while (at != Element::kNone && !h_.elements[at].leaf()) {
-            const Element& e = h_.elements[at];
-            float best = -std::numeric_limits<float>::infinity();
-            for (std::uint32_t k = 0; k < e.child_count; ++k) {
-                const float depth = depth_inside(h_.elements[e.first_child + k].barycentric, hit.barycentric);
-                if (depth > best) {
-                    best = depth;
-                    at = e.first_child + k;
-                }
-            }
-        }
-        return at;
-    }
-
-private:
-    [[nodiscard]] std::size_t side(std::uint32_t surface, std::uint32_t triangle, bool back) const {
-        return first_[surface] + 2 * std::size_t(triangle) + (back ? 1 : 0);
-    }
-    // Positive inside the triangle, either way round; the larger the deeper.
-    static float depth_inside(const std::array<vec2, 3>& t, const vec2& p) {
-        const auto cross = [](const vec2& a, const vec2& b, const vec2& c) {
-            return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-        };
-        const float turn = cross(t[0], t[1], t[2]) < 0.0F ? -1.0F : 1.0F;
-        return turn * (turn > 0.0F ? std::min({cross(t[0], t[1], p), cross(t[1], t[2], p), cross(t[2], t[0], p)})
-                                   : std::max({cross(t[0], t[1], p), cross(t[1], t[2], p), cross(t[2], t[0], p)}));
-    }
-
-    const Hierarchy& h_;
-    std::vector<std::size_t> first_;
-    std::vector<std::uint32_t> top_; ///< per triangle side
-};
-
 /// Union-find over elements.
 class Rooms {
 public:
@@ -94,7 +36,6 @@ LeafSurroundings look_around(const Hierarchy& h, const RayScene& rays, const std
     LeafSurroundings out;
     out.enclosed.assign(leaves.size(), 0);
     out.dark.assign(leaves.size(), 0);
-    const LeafFinder finder(h, rays);
     std::vector<std::uint32_t> seen(leaves.size() * kRays, Element::kNone); // leaves met
     std::vector<std::uint8_t> glass(leaves.size(), 0);                      // light may come from elsewhere
     parallel_chunks(leaves.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -118,7 +59,8 @@ LeafSurroundings look_around(const Hierarchy& h, const RayScene& rays, const std
                 const bool reflects = hit && (hit.front || rays.surfaces()[hit.surface].back_side);
                 enclosed = enclosed && reflects && rays.material(hit.surface).transmission <= 0.0F;
                 glass[i] = glass[i] != 0 || lets_through ? 1 : 0;
-                seen[i * kRays + k] = reflects ? finder.find(hit) : Element::kNone;
+                seen[i * kRays + k] =
+                    reflects ? h.leaf_at(hit.surface, hit.triangle, !hit.front, hit.barycentric) : Element::kNone;
             }
             out.enclosed[i] = enclosed ? 1 : 0;
         }

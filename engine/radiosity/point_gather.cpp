@@ -18,16 +18,22 @@ struct CutNode {
     float error = 0.0F;     ///< of its luminance, unoccluded; what refinement goes by
 };
 
+constexpr std::uint32_t kMostFaces = 48; // of a group that are looked at singly
+
+// Faces one by one; of many, evenly chosen ones stand for all.
 Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e, const SurfacePoint& p) {
-    Rgb sum(0.0F);
-    for (std::uint32_t f = e.triangle; f < e.triangle + e.face_count; ++f) {
+    const std::uint32_t step = (e.face_count + kMostFaces - 1) / kMostFaces;
+    float factor = 0.0F;
+    float chosen = 0.0F;
+    for (std::uint32_t f = e.triangle + step / 2; f < e.triangle + e.face_count; f += step) {
         const Face& face = h.faces[f];
         const auto corner = rays.triangle(face.surface, face.triangle);
+        chosen += face.area;
         if (glm::dot(p.position - corner[0], face.normal) > 0.0F) {
-            sum += e.radiosity * float(form_factor_to_polygon(p.position, p.normal, corner));
+            factor += float(form_factor_to_polygon(p.position, p.normal, corner));
         }
     }
-    return sum;
+    return e.radiosity * std::min(factor * (e.area / chosen), 1.0F);
 }
 
 CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, const SurfacePoint& p) {
@@ -42,12 +48,14 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, 
         return out; // below the horizon
     }
     if (e.kind == Kind::Patch) {
-        if (glm::dot(p.position - e.corner[0], e.normal) <= 0.0F) {
+        if (glm::dot(p.position - e.centre, e.normal) <= 0.0F) {
             return out;
         }
-        const auto factor = float(form_factor_to_polygon(p.position, p.normal, e.corner));
+        const float coverage = h.coverage(e);
+        const auto factor = coverage * float(form_factor_to_polygon(p.position, p.normal, h.corners(e)));
         out.contribution = e.radiosity * factor;
-        out.error = e.leaf() ? 0.0F : factor * e.spread;
+        // Where the surface lies within a cell that it does not fill is as uncertain as how bright it is there.
+        out.error = e.leaf() ? 0.0F : factor * (e.spread + std::max(1.0F - coverage, 0.0F) * luminance(e.radiosity));
         return out;
     }
     const float r = glm::length(d);

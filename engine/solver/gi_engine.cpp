@@ -92,7 +92,9 @@ struct GiEngine::Impl {
                 if ((uncertain > 2.0 * quality.refine.flux_threshold * flux || unseen) && hierarchy.can_split(todo[i])) {
                     const std::uint32_t first = std::uint32_t(hierarchy.elements.size());
                     hierarchy.split(todo[i], *rays);
-                    next.insert(next.end(), {first, first + 1, first + 2, first + 3});
+                    for (std::uint32_t c = first; c < hierarchy.elements.size(); ++c) {
+                        next.push_back(c);
+                    }
                 }
             }
             todo = std::move(next);
