@@ -18,6 +18,14 @@ struct CutNode {
     float error = 0.0F;     ///< of its luminance, unoccluded; what refinement goes by
 };
 
+// Whether a plane's front faces the point. The surface that the point is on does not shine on it, though rounding may put
+// the point before it: at no distance it would fill the whole hemisphere.
+bool faces_point(const vec3& on_plane, const vec3& normal, const SurfacePoint& p) {
+    const float height = glm::dot(p.position - on_plane, normal);
+    const float unevenness = 3e-4F + 1e-6F * max_component(glm::abs(p.position));
+    return height > (glm::dot(normal, p.normal) > 0.9F ? unevenness : 0.0F);
+}
+
 constexpr std::uint32_t kMostFaces = 48; // of a group that are looked at singly
 
 // Faces one by one; of many, evenly chosen ones stand for all.
@@ -29,7 +37,7 @@ Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e,
         const Face& face = h.faces[f];
         const auto corner = rays.triangle(face.surface, face.triangle);
         chosen += face.area;
-        if (glm::dot(p.position - corner[0], face.normal) > 0.0F) {
+        if (faces_point(corner[0], face.normal, p)) {
             factor += float(form_factor_to_polygon(p.position, p.normal, corner));
         }
     }
@@ -48,7 +56,7 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, 
         return out; // below the horizon
     }
     if (e.kind == Kind::Patch) {
-        if (glm::dot(p.position - e.centre, e.normal) <= 0.0F) {
+        if (!faces_point(e.centre, e.normal, p)) {
             return out;
         }
         const float coverage = h.coverage(e);
