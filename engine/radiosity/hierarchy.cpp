@@ -3,17 +3,34 @@
 #include "engine/radiosity/patch_cells.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace atrium {
 namespace {
 
 template <class T> std::size_t bytes_of(const std::vector<T>& v) { return v.capacity() * sizeof(T); }
 
+// Rounding may put a point of a triangle just where no part covers anything.
+std::uint32_t nearest_part(const Hierarchy& h, const CellStep& step, const vec2& uv) {
+    std::uint32_t best = 0;
+    float nearest = std::numeric_limits<float>::infinity();
+    for (std::uint32_t k = 0; k < std::uint32_t(std::popcount(unsigned(step.present))); ++k) {
+        const PatchCell& cell = h.patches[step.first_cell + k];
+        const vec2 d = glm::abs(uv - glm::clamp(uv, cell.low, cell.high));
+        if (d.x + d.y < nearest) {
+            nearest = d.x + d.y;
+            best = k;
+        }
+    }
+    return best;
+}
+
 } // namespace
 
 std::size_t Hierarchy::memory_bytes() const {
     return bytes_of(elements) + bytes_of(harmonics) + bytes_of(faces) + bytes_of(sheets) + bytes_of(sheet_triangles) +
-           bytes_of(patches) + bytes_of(cell_parts) + bytes_of(first_triangle) + bytes_of(on_sheet) + bytes_of(top);
+           bytes_of(patches) + bytes_of(steps) + bytes_of(cell_parts) + bytes_of(first_triangle) + bytes_of(on_sheet) +
+           bytes_of(top);
 }
 
 std::uint32_t Hierarchy::leaf_at(std::uint32_t surface, std::uint32_t triangle, bool back, const vec2& barycentric) const {
@@ -27,19 +44,15 @@ std::uint32_t Hierarchy::leaf_at(std::uint32_t surface, std::uint32_t triangle, 
     }
     const std::array<vec2, 3>& corner = sheet_triangles[on_sheet[side]].uv;
     const vec2 uv = corner[0] + (corner[1] - corner[0]) * barycentric.x + (corner[2] - corner[0]) * barycentric.y;
-    while (!elements[at].leaf()) {
-        const Element& e = elements[at];
-        // The nearest part: it holds the point, unless rounding put that where nothing is covered.
-        float nearest = std::numeric_limits<float>::infinity();
-        for (std::uint32_t k = 0; k < e.child_count; ++k) {
-            const PatchCell& cell = patches[elements[e.first_child + k].patch];
-            const vec2 d = uv - glm::clamp(uv, cell.low, cell.high);
-            const float distance = std::abs(d.x) + std::abs(d.y);
-            if (distance < nearest) {
-                nearest = distance;
-                at = e.first_child + k;
-            }
-        }
+    for (std::uint32_t cell = elements[at].patch; steps[cell].first_child != Element::kNone;) {
+        const CellStep& step = steps[cell];
+        const unsigned quadrant = ((step.cut & 1U) != 0 && uv.x >= step.middle.x ? 1U : 0U) |
+                                  ((step.cut & 2U) != 0 && uv.y >= step.middle.y ? 2U : 0U);
+        const bool present = (step.present >> quadrant & 1U) != 0;
+        const unsigned below = step.present & ((1U << quadrant) - 1U);
+        const std::uint32_t k = present ? std::uint32_t(std::popcount(below)) : nearest_part(*this, step, uv);
+        at = step.first_child + k;
+        cell = step.first_cell + k;
     }
     return at;
 }

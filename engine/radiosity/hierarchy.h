@@ -91,6 +91,14 @@ struct PatchCell {
     std::uint8_t quadrant = 0; ///< place in the parent: bit 0 along u, bit 1 along v
     Shape shape = Shape::Rectangle;
 };
+/// How to get from a cell to the part that holds a point: what leaf_at() reads, and nothing else.
+struct CellStep {
+    vec2 middle{0.0F};                          ///< where the cell is cut, sheet coordinates
+    std::uint32_t first_child = Element::kNone; ///< element; kNone on leaves
+    std::uint32_t first_cell = 0;               ///< of that child; the others follow
+    std::uint8_t cut = 0;                       ///< bit 0: along u, bit 1: along v
+    std::uint8_t present = 0;                   ///< bit q: there is a part in quadrant q
+};
 /// A triangle of the sheet as far as it lies in a cell.
 struct CellPart {
     std::uint32_t triangle = 0; ///< into Hierarchy::sheet_triangles
@@ -119,6 +127,7 @@ struct Hierarchy {
     std::vector<Sheet> sheets;
     std::vector<SheetTriangle> sheet_triangles;
     std::vector<PatchCell> patches;
+    std::vector<CellStep> steps; ///< one per cell
     std::vector<CellPart> cell_parts;
     std::vector<std::size_t> first_triangle;       ///< per surface: where its triangles begin in the next two
     std::vector<std::uint32_t> on_sheet;           ///< per triangle: index into sheet_triangles or kNone

@@ -190,6 +190,7 @@ void make_cell(Hierarchy& h, const RayScene& rays, Element& e, PatchCell cell, C
         h.cell_parts.insert(h.cell_parts.end(), found.parts.begin(), found.parts.end());
     }
     h.patches.push_back(cell);
+    h.steps.emplace_back();
     if (!sheet.varies) {
         return;
     }
@@ -278,6 +279,11 @@ void Hierarchy::split(std::uint32_t index, const RayScene& rays) {
     const std::vector<CellPart> parts(cell_parts.begin() + cell.first_part,
                                       cell_parts.begin() + cell.first_part + cell.part_count);
     const auto first = std::uint32_t(elements.size());
+    CellStep step;
+    step.middle = middle;
+    step.first_child = first;
+    step.first_cell = std::uint32_t(patches.size());
+    step.cut = std::uint8_t((cut_along[0] ? 1U : 0U) | (cut_along[1] ? 2U : 0U));
     double sum = 0.0;
     for (unsigned quadrant = 0; quadrant < 4; ++quadrant) {
         const std::array<bool, 2> upper{(quadrant & 1U) != 0, (quadrant & 2U) != 0};
@@ -315,7 +321,9 @@ void Hierarchy::split(std::uint32_t index, const RayScene& rays) {
         make_cell(*this, rays, child, part, std::move(found), whole);
         sum += double(child.area);
         elements.push_back(child);
+        step.present = std::uint8_t(step.present | 1U << quadrant);
     }
+    steps[elements[index].patch] = step;
     Element& parent = elements[index];
     parent.first_child = first;
     parent.child_count = std::uint16_t(elements.size() - first);
