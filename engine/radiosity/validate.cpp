@@ -54,6 +54,19 @@ void check_children(const Hierarchy& h, std::uint32_t i, Faults& faults) {
     }
     faults.require(e.kind != Kind::Faces, "faces {} have children", i);
     faults.require(e.kind != Kind::Patch || e.child_count <= 4, "patch {} has {} parts", i, e.child_count);
+    if (e.kind == Kind::Patch) {
+        const PatchCell& cell = h.patches[e.patch];
+        const CellStep& step = h.steps[e.patch];
+        unsigned present = 0;
+        for (std::uint32_t k = 0; k < e.child_count; ++k) {
+            const std::uint32_t part = h.elements[e.first_child + k].patch;
+            faults.require(part == step.first_cell + k, "cells of the parts of {} are not in order", i);
+            present |= 1U << h.patches[part].quadrant;
+        }
+        const vec2 off = glm::abs(step.middle - 0.5F * (cell.low + cell.high));
+        faults.require(step.first_child == e.first_child && step.present == present && off.x + off.y < 1e-4F * e.radius,
+                       "points of patch {} are led to the wrong part", i);
+    }
     double area = 0.0;
     Sh sum{};
     for (std::uint32_t k = 0; k < e.child_count; ++k) {
@@ -130,6 +143,12 @@ void check_leaf_at(const Hierarchy& h, const RayScene& rays, const Side& side, F
         faults.require(distance <= e.radius * 1.001F + 2e-3F, "triangle {} of surface {} is not in its leaf {}: {} > {}", t,
                        s, leaf, distance, e.radius);
         if (e.kind == Kind::Patch) {
+            const std::array<vec2, 3>& corner = h.sheet_triangles[h.on_sheet[h.first_triangle[s] + t]].uv;
+            const vec2 uv = corner[0] + (corner[1] - corner[0]) * b.x + (corner[2] - corner[0]) * b.y;
+            const PatchCell& cell = h.patches[e.patch];
+            const vec2 outside = glm::abs(uv - glm::clamp(uv, cell.low, cell.high));
+            faults.require(outside.x + outside.y <= 1e-3F * e.radius, "triangle {} of surface {} is not in cell {}", t, s,
+                           e.patch);
             faults.require(e.surface == s && e.back == back, "leaf {} is of another side than triangle {} of surface {}",
                            leaf, t, s);
         } else {

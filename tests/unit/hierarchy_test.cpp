@@ -342,6 +342,15 @@ TEST(Hierarchy, TheCheckerFindsFaults) {
     EXPECT_TRUE(broken([&](Hierarchy& h) { h.elements[leaf].path = h.elements[0].path; }));
     EXPECT_TRUE(broken([&](Hierarchy& h) { h.harmonics[h.elements[0].harmonics].projected_area[0] *= 1.1F; }));
     EXPECT_TRUE(broken([&](Hierarchy& h) { h.elements[leaf].rho = Rgb(1.2F); }));
+    EXPECT_TRUE(broken([&](Hierarchy& h) { h.patches[3].corner[0] += vec3(0.5F); }));
+    EXPECT_TRUE(broken([&](Hierarchy& h) { h.patches[3].sheet ^= 1U; }));
+    EXPECT_TRUE(broken([&](Hierarchy& h) { std::swap(h.top.front(), h.top.back()); })) << "triangles lead elsewhere";
+    const auto cut = std::find_if(room.hierarchy.steps.begin(), room.hierarchy.steps.end(),
+                                  [](const CellStep& step) { return step.first_child != Element::kNone; });
+    ASSERT_NE(cut, room.hierarchy.steps.end());
+    const auto place = std::size_t(cut - room.hierarchy.steps.begin());
+    EXPECT_TRUE(broken([&](Hierarchy& h) { h.steps[place].middle += vec2(0.1F); })) << "points lead to the wrong part";
+    EXPECT_TRUE(broken([&](Hierarchy& h) { h.faces.back().triangle -= 1; })) << "a triangle twice, another never";
     std::vector<Link> links = room.links.links();
     ASSERT_FALSE(links.empty());
     links.push_back(links[links.size() / 2]);
