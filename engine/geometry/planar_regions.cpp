@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 constexpr int kMostOnEdge = 64;         // neighbours looked at on one edge; more is no surface
 constexpr float kWeldTolerance = 2e-6F; // of the extents
-constexpr float kRounding = 4e-6F;      // of the largest coordinate: what float leaves of a plane
+constexpr float kRounding = 5e-7F;      // of the largest coordinate: what float leaves of a plane
 constexpr double kNormalCells = 50.0;   // cells of about one degree; axis directions are in their middles
 constexpr int kHostsPerPlane = 8;       // planes told apart among pieces of like normal and distance
 constexpr int kMergeRounds = 8;

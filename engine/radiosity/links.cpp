@@ -3,6 +3,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/rng.h"
 #include "engine/geometry/form_factor.h"
+#include "engine/radiosity/patch_cells.h"
 
 #include <algorithm>
 
@@ -12,10 +13,11 @@ namespace {
 using Kind = Element::Kind;
 
 // Signed distance range of a patch's corners from another's plane, with a tolerance for coplanar neighbours.
-bool wholly_behind(const Element& what, const Element& plane) {
+bool wholly_behind(const Hierarchy& h, const Element& what, const Element& plane) {
     const float tolerance = 1e-5F * (what.radius + plane.radius);
-    return std::all_of(what.corner.begin(), what.corner.end(),
-                       [&](const vec3& p) { return glm::dot(p - plane.corner[0], plane.normal) <= tolerance; });
+    const std::array<vec3, 4>& corners = h.corners(what);
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const vec3& p) { return glm::dot(p - plane.centre, plane.normal) <= tolerance; });
 }
 
 // Farthest that anything of `what` (a ball) may lie in front of a patch's plane.
@@ -35,7 +37,7 @@ PairEstimate estimate(const Hierarchy& h, const Element& a, const Element& b) {
     PairEstimate out;
     const bool pa = a.kind == Kind::Patch;
     const bool pb = b.kind == Kind::Patch;
-    if ((pa && pb && (wholly_behind(a, b) || wholly_behind(b, a))) || (pa && !pb && ball_behind(b, a)) ||
+    if ((pa && pb && (wholly_behind(h, a, b) || wholly_behind(h, b, a))) || (pa && !pb && ball_behind(b, a)) ||
         (pb && !pa && ball_behind(a, b))) {
         out.exchange = false;
         return out;
@@ -62,29 +64,27 @@ PairEstimate estimate(const Hierarchy& h, const Element& a, const Element& b) {
     return out;
 }
 
-float patch_pair_weight(const Hierarchy&, const RayScene& rays, const Element& a, const Element& b, unsigned ray_count) {
+vec3 point_on(const Hierarchy& h, const Element& patch, const vec2& u) {
+    return point_in_cell(h, h.patches[patch.patch], u).position;
+}
+
+float patch_pair_weight(const Hierarchy& h, const RayScene& rays, const Element& a, const Element& b, unsigned ray_count) {
     // Sample points on the smaller patch, closed form over the larger: the closed form carries the strong variation.
     const bool a_small = a.area <= b.area;
     const Element& from = a_small ? a : b;
     const Element& to = a_small ? b : a;
+    const std::array<vec3, 4>& to_corners = h.corners(to);
     const float r = glm::length(a.centre - b.centre);
     const float ratio = std::max(a.radius, b.radius) / std::max(r, 1e-9F);
     const unsigned points = ratio < 0.1F ? 1U : (ratio < 0.35F ? 4U : 16U);
     double factor = 0.0;
     for (unsigned i = 0; i < points; ++i) {
-        vec2 u(1.0F / 3.0F);
-        if (points > 1) {
-            u = sobol_owen2(i, 0, 17U);
-            if (u.x + u.y > 1.0F) {
-                u = vec2(1.0F) - u;
-            }
-        }
-        const vec3 x = from.corner[0] + (from.corner[1] - from.corner[0]) * u.x + (from.corner[2] - from.corner[0]) * u.y;
-        if (glm::dot(x - to.corner[0], to.normal) > 0.0F) {
-            factor += form_factor_to_polygon(x, from.normal, to.corner);
+        const vec3 x = points == 1 ? from.centre : point_on(h, from, sobol_owen2(i, 0, 17U));
+        if (glm::dot(x - to.centre, to.normal) > 0.0F) {
+            factor += form_factor_to_polygon(x, from.normal, to_corners);
         }
     }
-    factor /= points;
+    factor *= double(h.coverage(to)) / points;
     if (factor <= 0.0) {
         return 0.0F;
     }
@@ -92,16 +92,8 @@ float patch_pair_weight(const Hierarchy&, const RayScene& rays, const Element& a
     double seen = 0.0;
     double total = 0.0;
     for (unsigned i = 0; i < ray_count; ++i) {
-        const auto on = [&](const Element& e, unsigned dimension) {
-            vec2 u = sobol_owen2(i, dimension, seed);
-            if (u.x + u.y > 1.0F) {
-                u = vec2(1.0F) - u;
-            }
-            u = vec2(0.01F / 3.0F) + u * 0.99F;
-            return e.corner[0] + (e.corner[1] - e.corner[0]) * u.x + (e.corner[2] - e.corner[0]) * u.y;
-        };
-        const vec3 x = on(a, 0);
-        const vec3 y = on(b, 2);
+        const vec3 x = point_on(h, a, sobol_owen2(i, 0, seed));
+        const vec3 y = point_on(h, b, sobol_owen2(i, 2, seed));
         const vec3 d = y - x;
         const float d2 = glm::dot(d, d);
         const float ca = glm::dot(d, a.normal);
@@ -207,7 +199,7 @@ std::size_t LinkSet::refine(Hierarchy& h, const RayScene& rays, const RefineSett
         if (h.elements[first].leaf()) {
             const Rgb radiosity = h.elements[first].radiosity;
             h.split(first, rays);
-            for (std::uint32_t k = 0; k < 4; ++k) {
+            for (std::uint32_t k = 0; k < h.elements[first].child_count; ++k) {
                 h.elements[h.elements[first].first_child + k].radiosity = radiosity;
             }
         }

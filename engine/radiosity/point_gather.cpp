@@ -18,16 +18,30 @@ struct CutNode {
     float error = 0.0F;     ///< of its luminance, unoccluded; what refinement goes by
 };
 
+// Whether a plane's front faces the point. The surface that the point is on does not shine on it, though rounding may put
+// the point before it: at no distance it would fill the whole hemisphere.
+bool faces_point(const vec3& on_plane, const vec3& normal, const SurfacePoint& p) {
+    const float height = glm::dot(p.position - on_plane, normal);
+    const float unevenness = 3e-4F + 1e-6F * max_component(glm::abs(p.position));
+    return height > (glm::dot(normal, p.normal) > 0.9F ? unevenness : 0.0F);
+}
+
+constexpr std::uint32_t kMostFaces = 48; // of a group that are looked at singly
+
+// Faces one by one; of many, evenly chosen ones stand for all.
 Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e, const SurfacePoint& p) {
-    Rgb sum(0.0F);
-    for (std::uint32_t f = e.triangle; f < e.triangle + e.face_count; ++f) {
+    const std::uint32_t step = (e.face_count + kMostFaces - 1) / kMostFaces;
+    float factor = 0.0F;
+    float chosen = 0.0F;
+    for (std::uint32_t f = e.triangle + step / 2; f < e.triangle + e.face_count; f += step) {
         const Face& face = h.faces[f];
         const auto corner = rays.triangle(face.surface, face.triangle);
-        if (glm::dot(p.position - corner[0], face.normal) > 0.0F) {
-            sum += e.radiosity * float(form_factor_to_polygon(p.position, p.normal, corner));
+        chosen += face.area;
+        if (faces_point(corner[0], face.normal, p)) {
+            factor += float(form_factor_to_polygon(p.position, p.normal, corner));
         }
     }
-    return sum;
+    return e.radiosity * std::min(factor * (e.area / chosen), 1.0F);
 }
 
 CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, const SurfacePoint& p) {
@@ -42,12 +56,14 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, 
         return out; // below the horizon
     }
     if (e.kind == Kind::Patch) {
-        if (glm::dot(p.position - e.corner[0], e.normal) <= 0.0F) {
+        if (!faces_point(e.centre, e.normal, p)) {
             return out;
         }
-        const auto factor = float(form_factor_to_polygon(p.position, p.normal, e.corner));
+        const float coverage = h.coverage(e);
+        const auto factor = coverage * float(form_factor_to_polygon(p.position, p.normal, h.corners(e)));
         out.contribution = e.radiosity * factor;
-        out.error = e.leaf() ? 0.0F : factor * e.spread;
+        // Where the surface lies within a cell that it does not fill is as uncertain as how bright it is there.
+        out.error = e.leaf() ? 0.0F : factor * (e.spread + std::max(1.0F - coverage, 0.0F) * luminance(e.radiosity));
         return out;
     }
     const float r = glm::length(d);

@@ -1,6 +1,7 @@
 #include "engine/radiosity/validate.h"
 
 #include "engine/base/rng.h"
+#include "engine/radiosity/patch_cells.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -52,13 +53,34 @@ void check_children(const Hierarchy& h, std::uint32_t i, Faults& faults) {
         return;
     }
     faults.require(e.kind != Kind::Faces, "faces {} have children", i);
-    faults.require(e.kind != Kind::Patch || e.child_count == 4, "patch {} has {} parts", i, e.child_count);
+    faults.require(e.kind != Kind::Patch || e.child_count <= 4, "patch {} has {} parts", i, e.child_count);
+    if (e.kind == Kind::Patch) {
+        const PatchCell& cell = h.patches[e.patch];
+        const CellStep& step = h.steps[e.patch];
+        unsigned present = 0;
+        for (std::uint32_t k = 0; k < e.child_count; ++k) {
+            const std::uint32_t part = h.elements[e.first_child + k].patch;
+            faults.require(part == step.first_cell + k, "cells of the parts of {} are not in order", i);
+            present |= 1U << h.patches[part].quadrant;
+        }
+        const vec2 off = glm::abs(step.middle - 0.5F * (cell.low + cell.high));
+        faults.require(step.first_child == e.first_child && step.present == present && off.x + off.y < 1e-4F * e.radius,
+                       "points of patch {} are led to the wrong part", i);
+    }
     double area = 0.0;
     Sh sum{};
     for (std::uint32_t k = 0; k < e.child_count; ++k) {
         const Element& child = h.elements[e.first_child + k];
         faults.require(child.parent == i, "element {} does not know its parent {}", e.first_child + k, i);
         area += child.area;
+        if (e.kind == Kind::Patch) {
+            const PatchCell& outer = h.patches[e.patch];
+            const PatchCell& inner = h.patches[child.patch];
+            const bool within = inner.low.x >= outer.low.x && inner.low.y >= outer.low.y && inner.high.x <= outer.high.x &&
+                                inner.high.y <= outer.high.y;
+            faults.require(child.kind == Kind::Patch && child.back == e.back && inner.sheet == outer.sheet && within,
+                           "part {} is not within patch {}", e.first_child + k, i);
+        }
         if (e.kind == Kind::Cluster) {
             const Sh part = projected(h, child);
             for (std::size_t s = 0; s < kShCount; ++s) {
@@ -73,11 +95,16 @@ void check_children(const Hierarchy& h, std::uint32_t i, Faults& faults) {
     }
 }
 
-// Corners of a leaf: of its own triangle or of all its faces.
+// Corners of a leaf: of its own cell or of all its faces; points of a cell that is not filled.
 std::vector<vec3> corners_of(const Hierarchy& h, const RayScene& rays, const Element& e) {
-    std::vector<vec3> out(e.corner.begin(), e.corner.end());
-    if (e.kind == Kind::Faces) {
-        out.clear();
+    std::vector<vec3> out;
+    if (e.kind == Kind::Patch && h.patches[e.patch].shape == PatchCell::Shape::Partial) {
+        for (std::uint32_t i = 0; i < 16; ++i) {
+            out.push_back(point_in_cell(h, h.patches[e.patch], sobol_owen2(i, 0, 3U)).position);
+        }
+    } else if (e.kind == Kind::Patch) {
+        out.assign(h.corners(e).begin(), h.corners(e).end());
+    } else {
         for (std::uint32_t f = e.triangle; f < e.triangle + e.face_count; ++f) {
             const auto p = rays.triangle(h.faces[f].surface, h.faces[f].triangle);
             out.insert(out.end(), p.begin(), p.end());
@@ -100,38 +127,91 @@ void check_leaf(const Hierarchy& h, const RayScene& rays, std::uint32_t i, Fault
 
 using Side = std::tuple<std::uint32_t, std::uint32_t, bool>;
 
-void check_cover(const Hierarchy& h, const RayScene& rays, Faults& faults) {
-    std::map<Side, double> covered;
-    for (const Element& e : h.elements) {
-        if (!e.leaf()) {
-            continue;
+// The leaf that the hierarchy names for a point of a triangle side must lie there.
+void check_leaf_at(const Hierarchy& h, const RayScene& rays, const Side& side, Faults& faults) {
+    const auto [s, t, back] = side;
+    const auto p = rays.triangle(s, t);
+    for (const vec2& b : {vec2(1.0F / 3.0F), vec2(0.05F, 0.05F), vec2(0.9F, 0.05F), vec2(0.05F, 0.9F)}) {
+        const std::uint32_t leaf = h.leaf_at(s, t, back, b);
+        if (leaf >= h.elements.size() || !h.elements[leaf].leaf()) {
+            faults.require(false, "no leaf holds side {} of triangle {} of surface {}", back ? "back" : "front", t, s);
+            return;
         }
+        const Element& e = h.elements[leaf];
+        const vec3 point = p[0] + (p[1] - p[0]) * b.x + (p[2] - p[0]) * b.y;
+        const float distance = glm::length(point - e.centre);
+        faults.require(distance <= e.radius * 1.001F + 2e-3F, "triangle {} of surface {} is not in its leaf {}: {} > {}", t,
+                       s, leaf, distance, e.radius);
         if (e.kind == Kind::Patch) {
-            covered[{e.surface, e.triangle, e.back}] += e.area;
+            const std::array<vec2, 3>& corner = h.sheet_triangles[h.on_sheet[h.first_triangle[s] + t]].uv;
+            const vec2 uv = corner[0] + (corner[1] - corner[0]) * b.x + (corner[2] - corner[0]) * b.y;
+            const PatchCell& cell = h.patches[e.patch];
+            const vec2 outside = glm::abs(uv - glm::clamp(uv, cell.low, cell.high));
+            faults.require(outside.x + outside.y <= 1e-3F * e.radius, "triangle {} of surface {} is not in cell {}", t, s,
+                           e.patch);
+            faults.require(e.surface == s && e.back == back, "leaf {} is of another side than triangle {} of surface {}",
+                           leaf, t, s);
         } else {
-            for (std::uint32_t f = e.triangle; f < e.triangle + e.face_count; ++f) {
-                covered[{h.faces[f].surface, h.faces[f].triangle, h.faces[f].back}] += h.faces[f].area;
-            }
+            const auto first = h.faces.begin() + e.triangle;
+            faults.require(std::any_of(first, first + e.face_count,
+                                       [&](const Face& f) { return Side(f.surface, f.triangle, f.back) == side; }),
+                           "faces {} do not have triangle {} of surface {}", leaf, t, s);
         }
     }
-    std::size_t sides = 0;
+}
+
+void check_cover(const Hierarchy& h, const RayScene& rays, Faults& faults) {
+    std::map<Side, int> faces;
+    std::map<std::pair<std::uint32_t, bool>, double> on_sheets;
+    for (const Element& e : h.elements) {
+        if (e.leaf() && e.kind == Kind::Patch) {
+            on_sheets[{h.patches[e.patch].sheet, e.back}] += e.area;
+        }
+        for (std::uint32_t f = e.triangle; e.kind == Kind::Faces && f < e.triangle + e.face_count; ++f) {
+            ++faces[{h.faces[f].surface, h.faces[f].triangle, h.faces[f].back}];
+        }
+    }
+    std::size_t in_faces = 0, sheet_sides = 0;
+    std::map<std::uint32_t, double> sheet_area;
     for (std::uint32_t s = 0; s < rays.surfaces().size(); ++s) {
         for (std::uint32_t t = 0; t < rays.surfaces()[s].triangles.size(); ++t) {
             const auto p = rays.triangle(s, t);
-            const double area = 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+            const std::uint32_t place = h.on_sheet[h.first_triangle[s] + t];
+            if (place != Element::kNone) {
+                const auto sheet = std::upper_bound(h.sheets.begin(), h.sheets.end(), place,
+                                                    [](std::uint32_t at, const Sheet& x) { return at < x.first; });
+                const auto index = std::uint32_t(sheet - h.sheets.begin() - 1);
+                faults.require(h.sheet_triangles[place].triangle == t && h.sheets[index].surface == s,
+                               "triangle {} of surface {} is not where it is said to be", t, s);
+                sheet_area[index] += 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+            }
             for (const bool back : {false, true}) {
                 if (back && !rays.surfaces()[s].back_side) {
                     continue;
                 }
-                ++sides;
-                const auto it = covered.find({s, t, back});
-                faults.require(it != covered.end() && near(it->second, area, 1e-3),
-                               "triangle {} of surface {} is covered by {} of {} m2", t, s,
-                               it != covered.end() ? it->second : 0.0, area);
+                const auto it = faces.find({s, t, back});
+                const int times = it != faces.end() ? it->second : 0;
+                in_faces += std::size_t(times);
+                faults.require(times == (place == Element::kNone ? 1 : 0), "triangle {} of surface {} is {} times in groups",
+                               t, s, times);
+                check_leaf_at(h, rays, {s, t, back}, faults);
             }
         }
     }
-    faults.require(covered.size() == sides, "leaves lie on {} triangle sides, the scene has {}", covered.size(), sides);
+    for (std::uint32_t i = 0; i < h.sheets.size(); ++i) {
+        for (const bool back : {false, true}) {
+            if (back && !rays.surfaces()[h.sheets[i].surface].back_side) {
+                continue;
+            }
+            ++sheet_sides;
+            const auto it = on_sheets.find({i, back});
+            const double covered = it != on_sheets.end() ? it->second : 0.0;
+            faults.require(near(covered, sheet_area[i], 1e-3), "sheet {} is covered by {} of {} m2", i, covered,
+                           sheet_area[i]);
+        }
+    }
+    faults.require(on_sheets.size() == sheet_sides, "patches lie on {} sheet sides of {}", on_sheets.size(), sheet_sides);
+    faults.require(faces.size() == in_faces, "groups have {} triangle sides, {} of the scene's", faces.size(), in_faces);
 }
 
 void leaves_below(const Hierarchy& h, std::uint32_t i, std::vector<std::uint32_t>& out) {
@@ -143,10 +223,10 @@ void leaves_below(const Hierarchy& h, std::uint32_t i, std::vector<std::uint32_t
     }
 }
 
-bool in_front(const Element& what, const Element& of) {
+bool in_front(const Hierarchy& h, const Element& what, const Element& of) {
     const float margin = 1e-4F * (what.radius + of.radius);
-    return std::any_of(what.corner.begin(), what.corner.end(),
-                       [&](const vec3& p) { return glm::dot(p - of.corner[0], of.normal) > margin; });
+    return std::any_of(h.corners(what).begin(), h.corners(what).end(),
+                       [&](const vec3& p) { return glm::dot(p - of.centre, of.normal) > margin; });
 }
 
 } // namespace
@@ -155,6 +235,7 @@ std::vector<std::string> check_hierarchy(const Hierarchy& h, const RayScene& ray
     Faults faults;
     std::set<std::uint64_t> paths;
     std::set<std::uint32_t> harmonics;
+    std::set<std::uint32_t> cells;
     for (std::uint32_t i = 0; i < h.elements.size(); ++i) {
         const Element& e = h.elements[i];
         faults.require(i == 0 ? e.parent == Element::kNone : e.parent < i, "parent of {} does not precede it", i);
@@ -167,8 +248,14 @@ std::vector<std::string> check_hierarchy(const Hierarchy& h, const RayScene& ray
         }
         if (e.kind == Kind::Patch) {
             faults.require(e.harmonics == Element::kNone, "patch {} has harmonics", i);
-            const vec3 cross = glm::cross(e.corner[1] - e.corner[0], e.corner[2] - e.corner[0]);
-            faults.require(near(0.5F * glm::length(cross), e.area, 2e-3), "area of patch {} is not its corners'", i);
+            if (e.patch >= h.patches.size() || !cells.insert(e.patch).second) {
+                faults.require(false, "the cell of patch {} is not its own", i);
+                continue;
+            }
+            const std::array<vec3, 4>& p = h.corners(e);
+            const vec3 cross = glm::cross(p[2] - p[0], p[3] - p[1]); // twice the area of a quadrangle
+            const double covered = 0.5 * double(glm::length(cross)) * double(h.coverage(e));
+            faults.require(near(covered, e.area, 2e-3), "area of patch {} is not what it covers of its corners", i);
             faults.require(glm::dot(cross, e.normal) > 0.0F && near(glm::length(e.normal), 1.0, 1e-4),
                            "normal of patch {} is not on its front", i);
         } else {
@@ -215,7 +302,7 @@ std::vector<std::string> check_links(const Hierarchy& h, const std::vector<Link>
             const Element& b = h.elements[leaves[j]];
             const int times = count[i * n + j];
             faults.require(times <= 1, "leaves {} and {} are linked {} times", leaves[i], leaves[j], times);
-            const bool facing = a.kind == Kind::Patch && b.kind == Kind::Patch && in_front(a, b) && in_front(b, a);
+            const bool facing = a.kind == Kind::Patch && b.kind == Kind::Patch && in_front(h, a, b) && in_front(h, b, a);
             faults.require(times == 1 || !facing, "leaves {} and {} face each other without a link", leaves[i], leaves[j]);
         }
     }

@@ -153,7 +153,9 @@ struct GiEngine::Impl {
                 if ((uncertain > 2.0 * quality.refine.flux_threshold * flux || unseen) && hierarchy.can_split(todo[i])) {
                     const std::uint32_t first = std::uint32_t(hierarchy.elements.size());
                     hierarchy.split(todo[i], *rays);
-                    next.insert(next.end(), {first, first + 1, first + 2, first + 3});
+                    for (std::uint32_t c = first; c < hierarchy.elements.size(); ++c) {
+                        next.push_back(c);
+                    }
                 }
             }
             todo = std::move(next);
@@ -162,20 +164,26 @@ struct GiEngine::Impl {
 
     // Direct light of a leaf from the light map of its chart; false where it has none.
     bool light_from_map(Element& e, double& spread) const {
-        if (e.kind != Element::Kind::Patch || charts[e.surface].empty() ||
-            charts[e.surface].chart_of_triangle[e.triangle] == SurfaceCharts::kNone) {
+        if (e.kind != Element::Kind::Patch || charts[e.surface].empty()) {
             return false;
         }
+        const SurfaceCharts& surface = charts[e.surface];
+        const Sheet& sheet = hierarchy.sheets[hierarchy.patches[e.patch].sheet];
+        const std::uint32_t index = surface.chart_of_triangle[hierarchy.sheet_triangles[sheet.first].triangle];
+        if (index == SurfaceCharts::kNone || !surface.charts[index].planar) {
+            return false;
+        }
+        const Chart& chart = surface.charts[index];
         const auto& map = e.back ? maps.back[e.surface] : maps.front[e.surface];
         constexpr int kSamples = 32;
         Rgb sum(0.0F);
         double sum2 = 0.0;
+        const auto element = std::uint32_t(&e - hierarchy.elements.data());
         for (std::uint32_t i = 0; map && i < kSamples; ++i) {
-            vec2 u = sobol_owen2(i, 0, std::uint32_t(e.path));
-            u = u.x + u.y > 1.0F ? vec2(1.0F) - u : u;
-            const auto& c = e.barycentric;
-            const vec2 at = c[0] + (c[1] - c[0]) * u.x + (c[2] - c[0]) * u.y;
-            const Rgb light = map->irradiance(chart_uv(charts[e.surface], e.triangle, at));
+            const vec2 u = sobol_owen2(i, 0, std::uint32_t(e.path));
+            const vec3 from_corner = sample_point(hierarchy, *rays, element, u, false).position - chart.origin;
+            const vec2 at(glm::dot(from_corner, chart.axis_u), glm::dot(from_corner, chart.axis_v));
+            const Rgb light = map->irradiance(vec2(float(chart.tile_u), float(chart.tile_v)) + at / chart.scale);
             sum += light;
             sum2 += double(luminance(light)) * luminance(light);
         }
@@ -256,7 +264,7 @@ struct GiEngine::Impl {
             from_outside = from_outside || light.light.kind == Light::Kind::Directional;
         }
         const double lost = from_outside ? 0.0 : std::max(sent - direct_in, 0.0);
-        statistics.energy.emitted = emitted + (from_outside ? direct_in : std::max(sent, direct_in));
+        statistics.energy.emitted = emitted + (from_outside ? direct_in : sent);
         statistics.energy.absorbed = absorbed;
         statistics.energy.escaped = leaving + lost;
         statistics.energy.defect =

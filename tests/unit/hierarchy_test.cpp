@@ -1,4 +1,5 @@
 // The element hierarchy, its links and the transport on them keep what their headers promise.
+#include "engine/base/rng.h"
 #include "engine/io/scene_file.h"
 #include "engine/radiosity/direct_light.h"
 #include "engine/radiosity/validate.h"
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 
 namespace atrium {
 namespace {
@@ -148,35 +150,122 @@ TEST(Hierarchy, TransportIsSymmetricAndClosedRowsSumToOne) {
     EXPECT_THAT(check_transport(furnished.hierarchy, transport, true, 3e-2), IsEmpty());
 }
 
-TEST(Hierarchy, SplitMakesFourQuartersOfThePatch) {
-    const Scene scene = empty_room();
+TEST(Hierarchy, AWallIsOnePatchAndSplitsIntoQuartersOrHalves) {
+    Scene scene = empty_room(); // 4 m x 2.5 m x 3 m, a panel of 1 m x 1 m
     const RayScene rays(scene);
     Hierarchy h = build_hierarchy(rays, kCoarse);
-    const std::uint32_t leaf = h.leaves().front();
-    ASSERT_TRUE(h.can_split(leaf));
-    const Element parent = h.elements[leaf];
-    h.split(leaf, rays);
-    EXPECT_FALSE(h.can_split(leaf)) << "it is no leaf any more";
-    ASSERT_EQ(h.elements[leaf].child_count, 4);
-    double area = 0.0;
-    vec3 centre(0.0F);
-    for (std::uint32_t k = 0; k < 4; ++k) {
-        const Element& child = h.elements[h.elements[leaf].first_child + k];
-        EXPECT_NEAR(child.area, 0.25F * parent.area, 1e-6F);
-        EXPECT_EQ(child.normal, parent.normal);
-        EXPECT_EQ(child.rho, parent.rho);
-        EXPECT_LT(child.radius, 0.51F * parent.radius);
-        area += child.area;
-        centre += child.centre * 0.25F;
+    ASSERT_EQ(h.leaves().size(), 7U);
+    std::multiset<int> parts;
+    for (const std::uint32_t leaf : h.leaves()) {
+        ASSERT_TRUE(h.can_split(leaf));
+        const Element parent = h.elements[leaf];
+        h.split(leaf, rays);
+        EXPECT_FALSE(h.can_split(leaf)) << "it is no leaf any more";
+        const int count = h.elements[leaf].child_count;
+        parts.insert(count);
+        double area = 0.0;
+        vec3 centre(0.0F);
+        for (std::uint32_t k = 0; k < std::uint32_t(count); ++k) {
+            const Element& child = h.elements[h.elements[leaf].first_child + k];
+            EXPECT_NEAR(child.area, parent.area / float(count), 1e-5F);
+            EXPECT_EQ(child.normal, parent.normal);
+            EXPECT_EQ(child.rho, parent.rho);
+            EXPECT_LT(child.radius, (count == 4 ? 0.51F : 0.8F) * parent.radius);
+            area += child.area;
+            centre += child.centre / float(count);
+        }
+        EXPECT_NEAR(area, parent.area, 1e-5);
+        EXPECT_LT(glm::length(centre - parent.centre), 1e-5F);
     }
-    EXPECT_NEAR(area, parent.area, 1e-5);
-    EXPECT_LT(glm::length(centre - parent.centre), 1e-5F);
-    while (h.can_split(h.elements.size() - 1)) {
+    EXPECT_EQ(parts.count(2), 2U) << "the walls of 4 m x 2.5 m";
+    EXPECT_EQ(parts.count(4), 5U);
+    while (h.can_split(std::uint32_t(h.elements.size() - 1))) {
         h.split(std::uint32_t(h.elements.size() - 1), rays);
     }
-    const Element& last = h.elements.back();
-    EXPECT_LE(glm::length(last.corner[1] - last.corner[0]), 2 * kCoarse.smallest_patch);
+    const auto& corner = h.corners(h.elements.back());
+    const float longer = std::max(glm::length(corner[1] - corner[0]), glm::length(corner[2] - corner[1]));
+    EXPECT_LE(longer, 2 * kCoarse.smallest_patch);
+    EXPECT_GE(longer, kCoarse.smallest_patch * 0.99F);
     EXPECT_THAT(check_hierarchy(h, rays), IsEmpty());
+}
+
+// A surface with a hole, round and slanted edges, cut into any triangles: what cells cover must be what is there.
+TEST(Hierarchy, CellsCoverJustTheSurface) {
+    Scene scene;
+    const MaterialId m = add_material(scene, 0.5F);
+    const Polygon holed{{{0, 0}, {3, 0}, {3, 2}, {1, 3}, {0, 2}},
+                        {{{0.5F, 0.5F}, {0.5F, 1.5F}, {1.5F, 1.5F}, {1.5F, 0.5F}}}};
+    add_node(scene, holed, {0, 0, 0}, m);
+    add_node(scene, Disc{1.0F}, {6, 0, 0}, m);
+    add_node(scene, Polygon{{{0, 0}, {2, 0}, {0, 1}}, {}}, {10, 0, 0}, m);
+    const RayScene rays(scene);
+    Hierarchy h = build_hierarchy(rays, {0.05F, 0.03F});
+    ASSERT_EQ(h.leaves().size(), 3U);
+    EXPECT_THAT(check_hierarchy(h, rays), IsEmpty());
+    for (std::uint32_t i = 0; i < h.elements.size(); ++i) {
+        if (h.can_split(i)) {
+            h.split(i, rays);
+        }
+    }
+    EXPECT_THAT(check_hierarchy(h, rays), IsEmpty());
+    // Uniform points of every patch lie on the surface and in its own leaves; their mean is the patch's centroid.
+    for (std::uint32_t i = 1; i < h.elements.size(); i += i < 60 ? 1 : 17) {
+        const Element& e = h.elements[i];
+        if (e.kind != Element::Kind::Patch) {
+            continue;
+        }
+        vec3 mean(0.0F);
+        constexpr unsigned kCount = 256;
+        for (unsigned k = 0; k < kCount; ++k) {
+            const SurfacePoint p = sample_point(h, rays, i, sobol_owen2(k, 0, 5U), false);
+            mean += p.position / float(kCount);
+            const Hit hit = rays.nearest({p.position + 0.5F * p.normal, -p.normal});
+            ASSERT_TRUE(hit);
+            ASSERT_EQ(hit.surface, e.surface) << i;
+            std::uint32_t up = h.leaf_at(hit.surface, hit.triangle, false, hit.barycentric);
+            while (up != Element::kNone && up != i) {
+                up = h.elements[up].parent;
+            }
+            ASSERT_EQ(up, i);
+        }
+        EXPECT_LT(glm::length(mean - e.centre), 0.03F * e.radius) << i;
+    }
+}
+
+TEST(Hierarchy, FineTrianglesCostWhatTheirShapeDeserves) {
+    // A wall and a ball of 20 cm, coarse and a thousand times as fine: as many elements, give or take.
+    std::array<std::size_t, 2> elements{};
+    for (const int fine : {0, 1}) {
+        Scene scene;
+        auto mesh = std::make_shared<MeshData>();
+        const auto grid = [&](int n, const auto& at) {
+            const auto first = std::uint32_t(mesh->positions.size());
+            for (int j = 0; j <= n; ++j) {
+                for (int i = 0; i <= n; ++i) {
+                    mesh->positions.push_back(at(float(i) / float(n), float(j) / float(n)));
+                }
+            }
+            for (int j = 0; j < n; ++j) {
+                for (int i = 0; i < n; ++i) {
+                    const std::uint32_t a = first + std::uint32_t(j * (n + 1) + i), c = a + std::uint32_t(n) + 1;
+                    mesh->indices.insert(mesh->indices.end(), {a, a + 1, c + 1, a, c + 1, c});
+                }
+            }
+        };
+        grid(fine != 0 ? 300 : 1, [](float u, float v) { return vec3(4.0F * u, 2.5F * v, 0.0F); });
+        grid(fine != 0 ? 300 : 10, [](float u, float v) {
+            const float a = 2.0F * kPi * u, b = kPi * v;
+            return vec3(2, 1, 1) + 0.1F * vec3(std::sin(b) * std::sin(a), std::cos(b), std::sin(b) * std::cos(a));
+        });
+        mesh->parts = {{0, std::uint32_t(mesh->indices.size())}};
+        add_node(scene, Mesh{mesh}, {0, 0, 0}, add_material(scene, 0.5F));
+        const RayScene rays(scene);
+        const Hierarchy h = build_hierarchy(rays, {0.2F, 0.1F});
+        EXPECT_THAT(check_hierarchy(h, rays), IsEmpty());
+        elements[std::size_t(fine)] = h.elements.size();
+    }
+    EXPECT_GT(elements[0], 10U);
+    EXPECT_LT(double(elements[1]), 1.5 * double(elements[0]));
 }
 
 TEST(Hierarchy, PullGivesAreaMeansAndTheSpreadBoundsWhatIsBelow) {
@@ -221,7 +310,7 @@ TEST(Hierarchy, SamplePointsLieOnTheElementTheyAreAskedOf) {
                 EXPECT_LE(glm::length(p.position - e.centre), e.radius * 1.001F + 1e-5F) << i;
                 EXPECT_NEAR(glm::length(p.normal), 1.0F, 1e-3F);
                 if (e.kind == Element::Kind::Patch) {
-                    EXPECT_NEAR(glm::dot(p.position - e.corner[0], e.normal), 0.0F, 1e-4F);
+                    EXPECT_NEAR(glm::dot(p.position - e.centre, e.normal), 0.0F, 1e-4F);
                     EXPECT_EQ(p.normal, e.normal);
                 }
             }
@@ -253,6 +342,15 @@ TEST(Hierarchy, TheCheckerFindsFaults) {
     EXPECT_TRUE(broken([&](Hierarchy& h) { h.elements[leaf].path = h.elements[0].path; }));
     EXPECT_TRUE(broken([&](Hierarchy& h) { h.harmonics[h.elements[0].harmonics].projected_area[0] *= 1.1F; }));
     EXPECT_TRUE(broken([&](Hierarchy& h) { h.elements[leaf].rho = Rgb(1.2F); }));
+    EXPECT_TRUE(broken([&](Hierarchy& h) { h.patches[3].corner[0] += vec3(0.5F); }));
+    EXPECT_TRUE(broken([&](Hierarchy& h) { h.patches[3].sheet ^= 1U; }));
+    EXPECT_TRUE(broken([&](Hierarchy& h) { std::swap(h.top.front(), h.top.back()); })) << "triangles lead elsewhere";
+    const auto cut = std::find_if(room.hierarchy.steps.begin(), room.hierarchy.steps.end(),
+                                  [](const CellStep& step) { return step.first_child != Element::kNone; });
+    ASSERT_NE(cut, room.hierarchy.steps.end());
+    const auto place = std::size_t(cut - room.hierarchy.steps.begin());
+    EXPECT_TRUE(broken([&](Hierarchy& h) { h.steps[place].middle += vec2(0.1F); })) << "points lead to the wrong part";
+    EXPECT_TRUE(broken([&](Hierarchy& h) { h.faces.back().triangle -= 1; })) << "a triangle twice, another never";
     std::vector<Link> links = room.links.links();
     ASSERT_FALSE(links.empty());
     links.push_back(links[links.size() / 2]);
