@@ -127,8 +127,9 @@ void check_leaf(const Hierarchy& h, const RayScene& rays, std::uint32_t i, Fault
 
 using Side = std::tuple<std::uint32_t, std::uint32_t, bool>;
 
-// The leaf that the hierarchy names for a point of a triangle side must lie there.
-void check_leaf_at(const Hierarchy& h, const RayScene& rays, const Side& side, Faults& faults) {
+// The leaf that the hierarchy names for a point of a triangle side must lie there. `group`: the Faces that list the side,
+// kNone where none does.
+void check_leaf_at(const Hierarchy& h, const RayScene& rays, const Side& side, std::uint32_t group, Faults& faults) {
     const auto [s, t, back] = side;
     const auto p = rays.triangle(s, t);
     for (const vec2& b : {vec2(1.0F / 3.0F), vec2(0.05F, 0.05F), vec2(0.9F, 0.05F), vec2(0.05F, 0.9F)}) {
@@ -152,23 +153,27 @@ void check_leaf_at(const Hierarchy& h, const RayScene& rays, const Side& side, F
             faults.require(e.surface == s && e.back == back, "leaf {} is of another side than triangle {} of surface {}",
                            leaf, t, s);
         } else {
-            const auto first = h.faces.begin() + e.triangle;
-            faults.require(std::any_of(first, first + e.face_count,
-                                       [&](const Face& f) { return Side(f.surface, f.triangle, f.back) == side; }),
-                           "faces {} do not have triangle {} of surface {}", leaf, t, s);
+            faults.require(leaf == group, "faces {} do not have triangle {} of surface {}", leaf, t, s);
         }
     }
 }
 
 void check_cover(const Hierarchy& h, const RayScene& rays, Faults& faults) {
-    std::map<Side, int> faces;
+    struct Listed {
+        int times = 0;
+        std::uint32_t leaf = Element::kNone;
+    };
+    std::map<Side, Listed> faces;
     std::map<std::pair<std::uint32_t, bool>, double> on_sheets;
-    for (const Element& e : h.elements) {
+    for (std::uint32_t i = 0; i < h.elements.size(); ++i) {
+        const Element& e = h.elements[i];
         if (e.leaf() && e.kind == Kind::Patch) {
             on_sheets[{h.patches[e.patch].sheet, e.back}] += e.area;
         }
         for (std::uint32_t f = e.triangle; e.kind == Kind::Faces && f < e.triangle + e.face_count; ++f) {
-            ++faces[{h.faces[f].surface, h.faces[f].triangle, h.faces[f].back}];
+            Listed& listed = faces[{h.faces[f].surface, h.faces[f].triangle, h.faces[f].back}];
+            ++listed.times;
+            listed.leaf = i;
         }
     }
     std::size_t in_faces = 0, sheet_sides = 0;
@@ -190,11 +195,11 @@ void check_cover(const Hierarchy& h, const RayScene& rays, Faults& faults) {
                     continue;
                 }
                 const auto it = faces.find({s, t, back});
-                const int times = it != faces.end() ? it->second : 0;
-                in_faces += std::size_t(times);
-                faults.require(times == (place == Element::kNone ? 1 : 0), "triangle {} of surface {} is {} times in groups",
-                               t, s, times);
-                check_leaf_at(h, rays, {s, t, back}, faults);
+                const Listed listed = it != faces.end() ? it->second : Listed{};
+                in_faces += std::size_t(listed.times);
+                faults.require(listed.times == (place == Element::kNone ? 1 : 0),
+                               "triangle {} of surface {} is {} times in groups", t, s, listed.times);
+                check_leaf_at(h, rays, {s, t, back}, listed.leaf, faults);
             }
         }
     }

@@ -317,7 +317,7 @@ INSTANTIATE_TEST_SUITE_P(Primitives, Curved,
                                          CurvedCase{"disc", Disc{0.5F}, {}, 1}),
                          [](const auto& param) { return std::string(param.param.name); });
 
-TEST(SurfaceCharts, AMillionTrianglesTakeLessThanTwoSeconds) {
+TEST(SurfaceCharts, AMillionTrianglesTakeSecondsAndNotMinutes) {
     Soup relief; // half a plane, half waves of 10 cm height
     const int n = 708;
     for (int j = 0; j <= n; ++j) {
@@ -337,7 +337,7 @@ TEST(SurfaceCharts, AMillionTrianglesTakeLessThanTwoSeconds) {
     const SurfaceCharts charts = relief.charts();
     const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
     std::printf("%zu triangles, %zu charts: %.3f s\n", relief.triangles.size(), charts.charts.size(), seconds);
-    EXPECT_LT(seconds, 2.0);
+    EXPECT_LT(seconds, 8.0); // half a second; sanitizers and a busy machine take their share
     ASSERT_FALSE(charts.empty());
     EXPECT_GT(charts.charts[charts.chart_of_triangle[0]].area, 49.0F);
 }
