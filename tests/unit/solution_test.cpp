@@ -234,6 +234,27 @@ TEST(ReadSurface, BackSidesOfTwoSidedSurfacesAndMirroredNodes) {
     EXPECT_FALSE(read_surface(mirrored, *s.solution, {1, 0, 2}, {0, -1, 0}).on_surface);
 }
 
+TEST(ReadSurface, ManyAtOnceAreTheSameAsOneByOne) {
+    const StoredRoom& room = stored_room();
+    std::vector<SensorPlace> places;
+    for (int i = 0; i < 500; ++i) { // on and off the floor, both sides of what stands there, and out of the room
+        const double u = i % 25 * 0.2 - 0.5, v = i / 25 * 0.2 - 0.5;
+        places.push_back({{u, i % 3 == 0 ? 0.0 : v, i % 3 == 0 ? v : 1.5},
+                          i % 3 == 0 ? dvec3(0, 1, 0) : dvec3(0, 0, i % 3 == 1 ? 1 : -1)});
+    }
+    const std::vector<SensorReading> many = read_surfaces(room.scene, *room.solution, places);
+    ASSERT_EQ(many.size(), places.size());
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const SensorReading one = read_surface(room.scene, *room.solution, places[i].point, places[i].normal);
+        EXPECT_EQ(many[i].on_surface, one.on_surface) << i;
+        EXPECT_EQ(many[i].irradiance, one.irradiance) << i;
+        found += one.on_surface ? 1 : 0;
+    }
+    EXPECT_GT(found, 80U);
+    EXPECT_LT(found, 450U);
+}
+
 TEST(ReadSurface, MirrorsAreNoIlluminanceMeters) {
     Scene scene = furnace(0.5F);
     Material mirror;
