@@ -6,9 +6,9 @@ bool is_covered(const RayScene& rays, const vec3& point, const vec3& normal, flo
     vec3 t;
     vec3 b;
     make_frame(normal, t, b);
-    for (int i = 0; i < 9; ++i) {
+    for (int i = 0; i < 9; ++i) { // straight out first: in the open one ray is enough
         const float angle = 2.0F * kPi * float(i) / 8.0F;
-        const vec3 d = i == 8 ? normal : glm::normalize(0.35F * normal + std::cos(angle) * t + std::sin(angle) * b);
+        const vec3 d = i == 0 ? normal : glm::normalize(0.35F * normal + std::cos(angle) * t + std::sin(angle) * b);
         if (rays.occluded(point, point + d * reach)) {
             continue;
         }

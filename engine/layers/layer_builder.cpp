@@ -160,20 +160,34 @@ private:
         }
     }
 
+    // Finds what is covered and tells the field of the points that are not.
     bool prepare(const std::vector<Request>& requests) const {
-        if (!field_.prepare) {
-            return true;
+        parallel_chunks(requests.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t i = begin; i < end && !context_.should_stop(); ++i) {
+                LightVertex& v = *requests[i].vertex;
+                v.front_covered = covered(v, v.normal);
+                v.back_covered = v.wants_back && covered(v, -v.normal);
+            }
+        });
+        if (!field_.prepare || context_.should_stop()) {
+            return !context_.should_stop();
         }
         std::vector<SurfacePoint> points;
         points.reserve(requests.size());
         for (const Request& r : requests) {
             const LightVertex& v = *r.vertex;
-            points.push_back({sample_position(v, v.normal), v.normal});
-            if (v.wants_back) {
+            if (!v.front_covered) {
+                points.push_back({sample_position(v, v.normal), v.normal});
+            }
+            if (v.wants_back && !v.back_covered) {
                 points.push_back({sample_position(v, -v.normal), -v.normal});
             }
         }
         return field_.prepare(points);
+    }
+
+    [[nodiscard]] bool covered(const LightVertex& v, const vec3& n) const {
+        return is_covered(rays_, sample_position(v, n), n, settings_.cover_reach);
     }
 
     // The field may have got finer since a vertex was sampled.
@@ -182,8 +196,10 @@ private:
             parallel_chunks(mesh.vertices.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
                 for (std::size_t i = begin; i < end && !context_.should_stop(); ++i) {
                     LightVertex& v = mesh.vertices[i];
-                    v.front = field_.reflected(sample_position(v, v.normal), v.normal);
-                    if (v.wants_back) {
+                    if (!v.front_covered) {
+                        v.front = field_.reflected(sample_position(v, v.normal), v.normal);
+                    }
+                    if (v.wants_back && !v.back_covered) {
                         v.back = field_.reflected(sample_position(v, -v.normal), -v.normal);
                     }
                 }
@@ -232,14 +248,15 @@ private:
     }
 
     void sample_side(const LightVertex& v, const vec3& n, DirectSample& reflected, DirectSample& direct,
-                     bool& hidden) const {
+                     bool hidden) const {
+        if (hidden) {
+            return;
+        }
         const vec3 p = sample_position(v, n);
         reflected = field_.reflected(p, n);
         if (!v.charted()) {
             direct = field_.direct(p, n);
         }
-        hidden = luminance(reflected.irradiance + direct.irradiance) < settings_.light_floor &&
-                 is_covered(rays_, p, n, 2.0F * settings_.smallest_edge);
     }
 
     /// Light of a side that vertices interpolate: what decides where more of them are needed.

@@ -19,6 +19,7 @@ struct LayerSettings {
     float smallest_edge = 0.04F;        ///< edges are not split below this
     float contrast = 0.08F;             ///< relative deviation of a midpoint from its ends' mean that asks for a split
     float light_floor = 1.0F;           ///< lux: differences are judged against at least this irradiance
+    float cover_reach = 0.01F;          ///< metres within which all ways out must be shut where something rests on a surface
     std::size_t max_vertices = 600'000; ///< added vertices at most; the strongest contrasts first
 };
 

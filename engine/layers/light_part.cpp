@@ -174,10 +174,9 @@ void LightPart::take(const Request& request) {
     DirectSample light;
     State state = State::Void;
     if (const auto place = sheets_.locate(request.sheet, request.at, request.reach)) {
-        light = part_.light(place->point, place->normal);
-        const bool dark = luminance(light.irradiance) < settings_.light_floor;
-        const bool covered = dark && is_covered(sheets_.rays(), place->point, place->normal, settings_.cover_reach);
-        state = covered ? State::Covered : State::Known;
+        // Bright or dark: what shines into the gap under a lamp that lies on a ceiling is not the light of the ceiling.
+        state = is_covered(sheets_.rays(), place->point, place->normal, settings_.cover_reach) ? State::Covered : State::Known;
+        light = state == State::Known ? part_.light(place->point, place->normal) : DirectSample{};
     }
     if (request.probe) {
         probes_[request.index].seen = {luminance(light.irradiance), light.variance, state == State::Known};

@@ -23,7 +23,7 @@ struct CutNode {
 bool faces_point(const vec3& on_plane, const vec3& normal, const SurfacePoint& p) {
     const float height = glm::dot(p.position - on_plane, normal);
     const float unevenness = 3e-4F + 1e-6F * max_component(glm::abs(p.position));
-    return height > (glm::dot(normal, p.normal) > 0.9F ? unevenness : 0.0F);
+    return height > (std::abs(glm::dot(normal, p.normal)) > 0.9F ? unevenness : 0.0F);
 }
 
 constexpr std::uint32_t kMostFaces = 48; // of a group that are looked at singly

@@ -2,6 +2,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/rng.h"
+#include "engine/layers/covered_points.h"
 #include "engine/layers/layer_builder.h"
 #include "engine/radiosity/direct_light.h"
 #include "engine/radiosity/indirect_gather.h"
@@ -66,6 +67,7 @@ struct GiEngine::Impl {
     std::unique_ptr<IndirectGather> reflected;
     FieldSettings field;
     double named_flux = 0.0; ///< of the named emitters, lumen
+    double shut_flux = 0.0;  ///< of emitters' sides that lie on something: absorbed where they are
     bool solved = false;
 
     [[nodiscard]] bool nothing_direct() const { return punctual->empty() && emitters.empty(); }
@@ -105,8 +107,30 @@ struct GiEngine::Impl {
     }
 
     // Lamps that stand out leave the hierarchy: what they send is gathered straight from them.
-    void name_emitters(float contrast) {
-        const LeafFlags named = named_emitters(hierarchy, {}, contrast);
+    // The side of a lamp that lies flat on something else shines into the gap between them, where its light ends.
+    void name_emitters(float contrast, float cover_reach) {
+        LeafFlags named = named_emitters(hierarchy, {}, contrast);
+        LeafFlags shut(named.size(), 0);
+        parallel_chunks(named.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
+            constexpr std::uint32_t kPoints = 8;
+            for (std::size_t i = begin; i < end; ++i) {
+                const auto path = std::uint32_t(hierarchy.elements[i].path);
+                shut[i] = named[i];
+                for (std::uint32_t k = 0; shut[i] != 0 && k < kPoints; ++k) {
+                    const SurfacePoint p =
+                        sample_point(hierarchy, *rays, std::uint32_t(i), sobol_owen2(k, 0, path), false);
+                    shut[i] = is_covered(*rays, p.position, p.normal, cover_reach) ? 1 : 0;
+                }
+            }
+        });
+        for (std::size_t i = 0; i < named.size(); ++i) {
+            if (shut[i] != 0) {
+                Element& e = hierarchy.elements[i];
+                shut_flux += double(e.area) * luminance(e.emitted);
+                e.emitted = Rgb(0.0F);
+                named[i] = 0;
+            }
+        }
         if (std::any_of(named.begin(), named.end(), [](std::uint8_t f) { return f != 0; })) {
             emitters = only_flagged(hierarchy, named, true);
             for (std::size_t i = 0; i < named.size(); ++i) {
@@ -199,18 +223,23 @@ struct GiEngine::Impl {
         if (double spread = 0.0; light_from_map(e, spread)) {
             return float(spread);
         }
-        const unsigned n = e.kind == Element::Kind::Patch ? quality.leaf_samples * 2 : quality.leaf_samples;
+        const unsigned most = e.kind == Element::Kind::Patch ? quality.leaf_samples * 2 : quality.leaf_samples;
         Rgb sum(0.0F);
         double sum2 = 0.0;
-        for (unsigned i = 0; i < n; ++i) {
+        unsigned n = 0;
+        for (unsigned i = 0; i < most; ++i) {
             const SurfacePoint p = sample_point(hierarchy, *rays, index, sobol_owen2(i, 0, std::uint32_t(e.path)), false);
+            if (is_covered(*rays, p.position, p.normal, quality.maps.cover_reach)) {
+                continue; // what shines into a gap is no light of the surface
+            }
+            ++n;
             const Rgb light = direct_light(p.position, p.normal, quality.leaf_field.direct).irradiance;
             sum += light;
             sum2 += double(luminance(light)) * luminance(light);
         }
-        e.direct = sum / float(n);
+        e.direct = n > 0 ? sum / float(n) : Rgb(0.0F);
         const double mean = luminance(e.direct);
-        return float(std::sqrt(std::max(sum2 / n - mean * mean, 0.0)));
+        return n > 0 ? float(std::sqrt(std::max(sum2 / n - mean * mean, 0.0))) : 0.0F;
     }
 
     // Leaves split after light_leaves() have their parent's direct light; sample what is new.
@@ -264,8 +293,8 @@ struct GiEngine::Impl {
             from_outside = from_outside || light.light.kind == Light::Kind::Directional;
         }
         const double lost = from_outside ? 0.0 : std::max(sent - direct_in, 0.0);
-        statistics.energy.emitted = emitted + (from_outside ? direct_in : sent);
-        statistics.energy.absorbed = absorbed;
+        statistics.energy.emitted = emitted + shut_flux + (from_outside ? direct_in : sent);
+        statistics.energy.absorbed = absorbed + shut_flux;
         statistics.energy.escaped = leaving + lost;
         statistics.energy.defect =
             statistics.energy.emitted > 0.0 ? 1.0 - (absorbed + statistics.energy.escaped) / statistics.energy.emitted : 0.0;
@@ -341,7 +370,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     hierarchy_settings.seed = options.seed;
     s.hierarchy = build_hierarchy(*s.rays, hierarchy_settings);
     statistics.time.build = seconds_since(start);
-    s.name_emitters(quality.emitter_contrast);
+    s.name_emitters(quality.emitter_contrast, quality.maps.cover_reach);
 
     float light_floor = s.guess_floor(quality);
     timer.next("charts");
@@ -413,24 +442,10 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     };
 
     LinkSet links(s.hierarchy);
-    statistics.converged = s.hierarchy.empty();             // where nothing is, nothing is left to solve
-    const double step = 0.32 / (quality.refine_rounds + 1); // of progress: one per round and one for the first picture
-    for (int round = 0; round < quality.refine_rounds && !s.hierarchy.empty(); ++round) {
-        const double at = 0.08 + step * (round == 0 ? 0 : round + 1);
-        timer.next("links");
-        context.progress("links", at);
-        RefineSettings refine = quality.refine;
-        if (round + 1 < quality.refine_rounds) {
-            refine.flux_threshold *= 4.0F; // the first look is coarse: light has not gone round yet
-        }
-        const std::size_t old_count = s.hierarchy.elements.size();
-        links.refine(s.hierarchy, *s.rays, refine, context);
-        s.light_new_leaves(old_count, quality, context);
-        if (context.should_stop()) {
-            return stopped();
-        }
+    statistics.converged = s.hierarchy.empty(); // where nothing is, nothing is left to solve
+    const auto solve_light = [&](double at) {
         timer.next("gather");
-        context.progress("gather", at + 0.6 * step);
+        context.progress("gather", at);
         Transport transport(s.hierarchy, links.links());
         const LeafSurroundings around = look_around(s.hierarchy, *s.rays, transport.leaves(), context);
         transport.close_rows(around.enclosed);
@@ -448,23 +463,51 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
                                         [](const Element& e) { return e.kind == Element::Kind::Cluster; }));
         s.energy_balance(transport, statistics);
         find_floor();
+        s.solved = true;
+    };
+    const auto refine_links = [&](float coarser, double at) {
+        timer.next("links");
+        context.progress("links", at);
+        RefineSettings refine = quality.refine;
+        refine.flux_threshold *= coarser;
+        const std::size_t old_count = s.hierarchy.elements.size();
+        links.refine(s.hierarchy, *s.rays, refine, context);
+        s.light_new_leaves(old_count, quality, context);
+    };
+    if (!s.hierarchy.empty()) {
+        refine_links(quality.refine_rounds > 1 ? 4.0F : 1.0F, 0.08); // a coarse look: light has not gone round yet
+        if (!context.should_stop()) {
+            solve_light(0.12);
+        }
         if (context.should_stop()) {
             return stopped();
         }
-        if (round == 0) {
-            s.solved = true;
-            LayerSet first = layers(quality.first_layers, quality.first_field, at + step, at + 2.0 * step);
-            timer.stop();
-            if (!first.complete) {
-                return stopped();
-            }
-            publish(std::move(first), false);
+        LayerSet first = layers(quality.first_layers, quality.first_field, 0.14, 0.2);
+        timer.stop();
+        if (!first.complete) {
+            return stopped();
+        }
+        publish(std::move(first), false);
+    }
+    // The sharp light first: means of leaves over the coarse maps are off where light changes within a texel.
+    if (!direct_maps(quality.maps, quality.field, 0.2, 0.45)) {
+        return stopped();
+    }
+    if (!s.hierarchy.empty()) {
+        timer.next("hierarchy");
+        s.light_leaves(quality, context);
+        for (int round = 1; round < quality.refine_rounds && !context.should_stop(); ++round) {
+            refine_links(round + 1 < quality.refine_rounds ? 2.0F : 1.0F, 0.45);
+            solve_light(0.5);
+        }
+        if (quality.refine_rounds == 1 && !context.should_stop()) {
+            solve_light(0.5);
+        }
+        if (context.should_stop()) {
+            return stopped();
         }
     }
     s.solved = true;
-    if (!direct_maps(quality.maps, quality.field, 0.4, 0.6)) {
-        return stopped();
-    }
     context.progress("layers", 0.6);
     LayerSet set = layers(quality.layers, quality.field, 0.6, 1.0);
     timer.stop();

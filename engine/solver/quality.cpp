@@ -80,7 +80,8 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     }
     out.first_field = look(0.1F, 96, 16, 8, 24, 64);
     out.leaf_field = look(0.05F, 96, 8, 1, std::max(out.field.direct.sky_rays / 8, 16U), 16);
-    out.maps.cover_reach = 0.05F * unit;
+    out.maps.cover_reach = 0.01F * unit; // contact, not a gap: what is dark between books stays dark
+    out.layers.cover_reach = out.maps.cover_reach;
     out.first_maps = out.maps;
     out.first_maps.first_level = 1;
     out.first_maps.max_level = 3;
