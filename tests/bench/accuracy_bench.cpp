@@ -58,6 +58,13 @@ struct Reference {
 
 // ---- places ----
 
+/// A node's name without the comma that would end its cell.
+std::string csv_name(const Scene& scene, NodeId id) {
+    std::string name = scene.nodes.find(id)->name;
+    std::replace(name.begin(), name.end(), ',', ';');
+    return name;
+}
+
 /// True where the side is neither covered (everything within a millimetre) nor out of reach of all light: of 48 paths of
 /// up to 48 bounces at least one finds some.
 bool light_can_reach(const RayScene& rays, const PathTracer& tracer, const vec3& position, const vec3& normal) {
@@ -82,6 +89,26 @@ bool light_can_reach(const RayScene& rays, const PathTracer& tracer, const vec3&
         }
     }
     return false;
+}
+
+/// Leaves out places that something lies on within a millimetre, or in whose very plane another surface lies: which of the
+/// two is seen there is left to rounding. Also those where none of the reference's paths found light.
+void drop_covered(const Scene& scene, std::vector<Probe>& probes) {
+    const RayScene rays(scene);
+    constexpr float kNear = 1e-3F;
+    std::erase_if(probes, [&](const Probe& probe) {
+        const vec3 p(probe.place.point - rays.origin());
+        const vec3 n(probe.place.normal);
+        const auto own = [&](const Hit& hit) {
+            return hit && std::abs(hit.t - kNear) < 0.1F * kNear &&
+                   csv_name(scene, rays.surfaces()[hit.surface].node) == probe.node;
+        };
+        // From both sides: of two surfaces in one plane a ray may meet either.
+        const Hit above = rays.nearest({p + n * kNear, -n, 2.0F * kNear});
+        const Hit below = rays.nearest({p - n * kNear, n, 2.0F * kNear});
+        const bool dark = probe.irradiance == Rgb(0.0F);
+        return dark || !own(above) || (below && std::abs(below.t - kNear) < 0.1F * kNear && !own(below));
+    });
 }
 
 /// Area-weighted random places; the same for the same scene and count.
@@ -137,8 +164,7 @@ std::vector<Probe> pick_probes(const Scene& scene, std::size_t count) {
         }
         Probe probe;
         probe.place = {dvec3(position) + rays.origin(), dvec3(normal * sign)};
-        probe.node = scene.nodes.find(rays.surfaces()[side.surface].node)->name;
-        std::replace(probe.node.begin(), probe.node.end(), ',', ';');
+        probe.node = csv_name(scene, rays.surfaces()[side.surface].node);
         out.push_back(probe);
     }
     return out;
@@ -377,8 +403,9 @@ int run(const Arguments& a) {
     if (!a.cache.empty()) {
         fs::create_directories(a.cache);
     }
-    std::string csv = "scene,quality,solve_seconds,cpu_seconds,rms,rms_spread,bias,p50,p95,p99,error_estimate,points,unread,"
-                      "reference_noise,reference_mean_noise,reference_paths\n";
+    std::string csv =
+        "scene,quality,solve_seconds,cpu_seconds,rms,rms_spread,bias,p50,p95,p99,error_estimate,points,covered,unread,"
+        "reference_noise,reference_mean_noise,reference_paths\n";
     std::string worst = "scene,quality,x,y,z,nx,ny,nz,node,E,R,stderr,relative\n";
     fmt::print("{}{:<24} {:<6} {:>8} {:>8} {:>7} {:>6} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6} {:>7}\n", header(), "scene",
                "qual.", "solve s", "cpu s", "rms", "+-", "bias", "p50", "p95", "p99", "own", "points", "unread", "noise");
@@ -401,6 +428,9 @@ int run(const Arguments& a) {
             status = 1;
             continue;
         }
+        const std::size_t picked = reference.probes.size();
+        drop_covered(scene, reference.probes);
+        const std::size_t dropped = picked - reference.probes.size();
         const std::string name = fs::path(file).stem().string();
         std::vector<SensorPlace> places;
         for (const Probe& p : reference.probes) {
@@ -412,8 +442,8 @@ int run(const Arguments& a) {
             for (const Probe& p : reference.probes) {
                 same.push_back({p.irradiance, 0.0, true});
             }
-            fmt::print("{:<24} reference of {} points, {:.0f} paths each, rms noise {:.2f} %\n", name, places.size(),
-                       reference.paths, 100.0 * compare(reference.probes, same, unused).noise);
+            fmt::print("{:<24} reference of {} points ({} more are covered), {:.0f} paths each, rms noise {:.2f} %\n", name,
+                       places.size(), dropped, reference.paths, 100.0 * compare(reference.probes, same, unused).noise);
             std::fflush(stdout);
             continue;
         }
@@ -440,9 +470,9 @@ int run(const Arguments& a) {
                 name, quality, s.time.solve, cpu, 100 * row.rms, 100 * row.rms_spread, 100 * row.bias, 100 * row.p50,
                 100 * row.p95, 100 * row.p99, 100 * s.error_estimate, row.points, row.unread, 100 * row.noise);
             std::fflush(stdout);
-            csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", name, quality, s.time.solve, cpu,
+            csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", name, quality, s.time.solve, cpu,
                                row.rms, row.rms_spread, row.bias, row.p50, row.p95, row.p99, s.error_estimate, row.points,
-                               row.unread, row.noise, row.reference_bias, reference.paths);
+                               dropped, row.unread, row.noise, row.reference_bias, reference.paths);
             worst += worst_points(name, quality, reference.probes, readings, relative, a.worst_count);
         }
     }
