@@ -247,8 +247,7 @@ private:
         }
     }
 
-    void sample_side(const LightVertex& v, const vec3& n, DirectSample& reflected, DirectSample& direct,
-                     bool hidden) const {
+    void sample_side(const LightVertex& v, const vec3& n, DirectSample& reflected, DirectSample& direct, bool hidden) const {
         if (hidden) {
             return;
         }

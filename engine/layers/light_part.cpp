@@ -175,7 +175,8 @@ void LightPart::take(const Request& request) {
     State state = State::Void;
     if (const auto place = sheets_.locate(request.sheet, request.at, request.reach)) {
         // Bright or dark: what shines into the gap under a lamp that lies on a ceiling is not the light of the ceiling.
-        state = is_covered(sheets_.rays(), place->point, place->normal, settings_.cover_reach) ? State::Covered : State::Known;
+        state =
+            is_covered(sheets_.rays(), place->point, place->normal, settings_.cover_reach) ? State::Covered : State::Known;
         light = state == State::Known ? part_.light(place->point, place->normal) : DirectSample{};
     }
     if (request.probe) {

@@ -6,6 +6,7 @@
 #include "engine/layers/layer_builder.h"
 #include "engine/radiosity/direct_light.h"
 #include "engine/radiosity/indirect_gather.h"
+#include "engine/radiosity/leaf_gather.h"
 #include "engine/radiosity/leaf_surroundings.h"
 #include "engine/radiosity/links.h"
 #include "engine/radiosity/point_gather.h"
@@ -117,8 +118,7 @@ struct GiEngine::Impl {
                 const auto path = std::uint32_t(hierarchy.elements[i].path);
                 shut[i] = named[i];
                 for (std::uint32_t k = 0; shut[i] != 0 && k < kPoints; ++k) {
-                    const SurfacePoint p =
-                        sample_point(hierarchy, *rays, std::uint32_t(i), sobol_owen2(k, 0, path), false);
+                    const SurfacePoint p = sample_point(hierarchy, *rays, std::uint32_t(i), sobol_owen2(k, 0, path), false);
                     shut[i] = is_covered(*rays, p.position, p.normal, cover_reach) ? 1 : 0;
                 }
             }
@@ -277,14 +277,15 @@ struct GiEngine::Impl {
         return lit;
     }
 
-    void energy_balance(const Transport& transport, Statistics& statistics) const {
+    void energy_balance(const std::vector<std::uint32_t>& leaves, const std::vector<float>& row_sums,
+                        Statistics& statistics) const {
         double emitted = 0.0, absorbed = 0.0, leaving = 0.0, direct_in = 0.0;
-        for (std::size_t i = 0; i < transport.leaves().size(); ++i) {
-            const Element& e = hierarchy.elements[transport.leaves()[i]];
+        for (std::size_t i = 0; i < leaves.size(); ++i) {
+            const Element& e = hierarchy.elements[leaves[i]];
             emitted += double(e.area) * luminance(e.emitted);
             direct_in += double(e.area) * luminance(e.direct);
             absorbed += double(e.area) * luminance((Rgb(1.0F) - e.rho) * (e.irradiance + e.direct));
-            leaving += double(e.area) * luminance(e.radiosity) * std::max(1.0 - double(transport.row_sums()[i]), 0.0);
+            leaving += double(e.area) * luminance(e.radiosity) * std::max(1.0 - double(row_sums[i]), 0.0);
         }
         // What sun, sky and lamps bring in counts where it lands; a lamp's light that lands nowhere has escaped at once.
         const double sent = punctual->emitted_flux() + named_flux;
@@ -461,7 +462,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         statistics.clusters =
             std::uint64_t(std::count_if(s.hierarchy.elements.begin(), s.hierarchy.elements.end(),
                                         [](const Element& e) { return e.kind == Element::Kind::Cluster; }));
-        s.energy_balance(transport, statistics);
+        s.energy_balance(transport.leaves(), transport.row_sums(), statistics);
         find_floor();
         s.solved = true;
     };
@@ -502,6 +503,19 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         }
         if (quality.refine_rounds == 1 && !context.should_stop()) {
             solve_light(0.5);
+        }
+        if (!context.should_stop()) {
+            // Rays know what stands close to a leaf, which links average away.
+            timer.next("leaf_gather");
+            const LeafGather gather(
+                s.hierarchy, *s.rays, quality.leaf_rays,
+                [&](const SurfacePoint& p) { return is_covered(*s.rays, p.position, p.normal, quality.maps.cover_reach); },
+                context);
+            if (gather.complete()) {
+                statistics.iterations +=
+                    gather.solve(s.hierarchy, 10.0 * quality.solver_tolerance, quality.max_iterations, context);
+                s.energy_balance(gather.leaves(), gather.row_sums(), statistics);
+            }
         }
         if (context.should_stop()) {
             return stopped();

@@ -46,6 +46,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         out.maps.max_level = 4;
         out.maps.contrast = 0.06F;
         out.refine_rounds = 1;
+        out.leaf_rays = 64;
         out.solver_tolerance = 1e-3;
         usual_error = 0.10;
         break;
@@ -60,6 +61,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         out.maps.max_level = 7;
         out.maps.contrast = 0.015F;
         out.refine_rounds = 3;
+        out.leaf_rays = 256;
         out.solver_tolerance = 1e-5;
         usual_error = 0.02;
         break;

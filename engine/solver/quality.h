@@ -33,6 +33,7 @@ struct QualitySettings {
     int refine_rounds = 2;          ///< refinements, each followed by a solve
     double solver_tolerance = 1e-4; ///< relative residual
     int max_iterations = 400;
+    unsigned leaf_rays = 128;  ///< over the hemisphere of every leaf, a power of two
     unsigned leaf_samples = 4; ///< direct-light samples on a leaf
 };
 
