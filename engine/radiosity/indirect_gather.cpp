@@ -3,6 +3,7 @@
 #include "engine/base/rng.h"
 
 #include <algorithm>
+#include <array>
 
 namespace atrium {
 namespace {
@@ -88,6 +89,8 @@ FieldSample IndirectGather::irradiance(const vec3& point, const vec3& normal, co
     double light = 0.0;
     double light2 = 0.0;
     double near = 0.0;
+    std::array<float, 4> nearest; // the least few distances, in order
+    nearest.fill(std::numeric_limits<float>::infinity());
     unsigned done = 0;
     unsigned wanted = std::min<unsigned>(settings.rays, kMostRays);
     for (;;) {
@@ -96,6 +99,11 @@ FieldSample IndirectGather::irradiance(const vec3& point, const vec3& normal, co
             float distance = 0.0F;
             const Rgb radiosity = along(origin, t * d.x + b * d.y + normal * d.z, distance);
             near += 1.0 / std::max(double(distance), 1e-6);
+            for (float& least : nearest) {
+                if (distance < least) {
+                    std::swap(distance, least);
+                }
+            }
             sum += radiosity;
             const double l = luminance(radiosity);
             light += l;
@@ -109,6 +117,7 @@ FieldSample IndirectGather::irradiance(const vec3& point, const vec3& normal, co
             out.irradiance += sum / float(done);
             out.variance += float(variance);
             out.distance = near > 0.0 ? float(n / near) : out.distance;
+            out.nearest = nearest.back();
             return out;
         }
         wanted = 2 * done;

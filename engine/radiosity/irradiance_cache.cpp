@@ -11,7 +11,8 @@ namespace {
 using Cell = glm::vec<3, std::int32_t>;
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 constexpr std::size_t kGrain = 16;
-constexpr int kMostRounds = 4; // of looking where interpolation is off
+constexpr float kWithinReach = 0.2F; // weight of the record that a point needs at least: at its rim it only extrapolates
+constexpr int kMostRounds = 4;       // of looking where interpolation is off
 
 Cell cell_of(const vec3& p, float size) {
     return {std::int32_t(std::floor(p.x / size)), std::int32_t(std::floor(p.y / size)),
@@ -84,7 +85,8 @@ std::size_t IrradianceCache::find(const vec3& point, const vec3& normal, std::ui
         }
         for (const std::uint32_t index : it->second) {
             const float w = index == skip ? 0.0F : weight(records_[index], point, normal);
-            if (!(w > 0.0F) || (count == kMostUsed && w <= out[count - 1].weight) || !sees(records_[index], point, normal)) {
+            if (!(w > (any ? kWithinReach : 0.0F)) || (count == kMostUsed && w <= out[count - 1].weight) ||
+                !sees(records_[index], point, normal)) {
                 continue;
             }
             if (any) {
@@ -186,7 +188,8 @@ bool IrradianceCache::add_round(std::span<const SurfacePoint> points, std::vecto
         r.normal = p.normal;
         r.irradiance = samples[i].irradiance;
         r.variance = samples[i].variance;
-        r.reach = std::clamp(settings_.spacing * samples[i].distance, settings_.smallest_reach, settings_.largest_reach);
+        r.reach = std::clamp(std::min(settings_.spacing * samples[i].distance, settings_.to_nearest * samples[i].nearest),
+                             settings_.smallest_reach, settings_.largest_reach);
         vec3 b;
         make_frame(p.normal, r.tangent, b);
         insert(r);

@@ -19,11 +19,13 @@ struct FieldSample {
     Rgb irradiance{0.0F};
     float variance = 0.0F; ///< of luminance(irradiance), lux^2
     float distance = 0.0F; ///< harmonic mean distance of what is seen, metres; infinite where nothing is
+    float nearest = 0.0F;  ///< distance of the nearest of what is seen (but for a few rays in a hundred), metres
 };
 
 /// How densely records lie. Lengths in metres.
 struct CacheSettings {
-    float spacing = 0.35F; ///< reach of a record as a share of the mean distance of what it sees
+    float spacing = 0.35F;   ///< reach of a record as a share of the mean distance of what it sees
+    float to_nearest = 0.6F; ///< the same of the nearest that it sees: light changes quickly at the foot of things
     float smallest_reach = 0.04F;
     float largest_reach = 0.8F;
     float normal_cosine = 0.94F; ///< records whose normal differs more are not used (cosine of about 20 degrees)

@@ -29,7 +29,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         f.reflected.tolerance = tolerance;
         f.reflected.bright = {2.0F * tolerance, cut, rays, 0, 0};
         f.cache.spacing = std::clamp(2.5F * std::sqrt(tolerance), 0.2F, 0.6F);
-        f.cache.smallest_reach = 3.0F * tolerance * unit;
+        f.cache.smallest_reach = 1.5F * tolerance * unit;
         f.cache.largest_reach = 1.0F * unit;
         f.cache.contrast = 2.0F * tolerance;
         return f;
