@@ -42,10 +42,10 @@ Hierarchy tree_of(const Hierarchy& solved, const LeafFlags& bright) {
 
 } // namespace
 
-IndirectGather::IndirectGather(const Hierarchy& solved, const RayScene& rays, LeafFlags bright)
-    : h_(solved), rays_(rays), bright_(std::move(bright)), bright_tree_(tree_of(solved, bright_)),
-      bright_gather_(bright_tree_, rays), offset_(std::clamp(1e-5F * rays.bounds().diagonal(), 1e-6F, 1e-3F)),
-      directions_(cosine_directions()) {}
+IndirectGather::IndirectGather(const Hierarchy& solved, const RayScene& rays, LeafFlags bright, DirectAtHit direct)
+    : h_(solved), rays_(rays), bright_(std::move(bright)), direct_(std::move(direct)),
+      bright_tree_(tree_of(solved, bright_)), bright_gather_(bright_tree_, rays),
+      offset_(std::clamp(1e-5F * rays.bounds().diagonal(), 1e-6F, 1e-3F)), directions_(cosine_directions()) {}
 
 Rgb IndirectGather::along(vec3 origin, const vec3& direction, float& distance) const {
     distance = std::numeric_limits<float>::infinity();
@@ -59,7 +59,9 @@ Rgb IndirectGather::along(vec3 origin, const vec3& direction, float& distance) c
         distance = crossing == 0 ? hit.t : distance;
         const std::uint32_t leaf = h_.leaf_at(hit.surface, hit.triangle, !hit.front, hit.barycentric);
         if (leaf != Element::kNone && bright_[leaf] == 0) {
-            sum += through * h_.elements[leaf].radiosity;
+            const Element& e = h_.elements[leaf];
+            Rgb direct(0.0F);
+            sum += through * (direct_ && direct_(hit, direct) ? e.emitted + e.rho * (direct + e.irradiance) : e.radiosity);
         }
         through *= rays_.straight_through(hit, direction);
         if (!(max_component(through) > 1e-3F)) {

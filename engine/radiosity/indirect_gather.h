@@ -6,6 +6,7 @@
 #include "engine/radiosity/light_split.h"
 #include "engine/radiosity/point_gather.h"
 
+#include <functional>
 #include <vector>
 
 namespace atrium {
@@ -18,11 +19,14 @@ struct IndirectSettings {
     GatherSettings bright;   ///< for the spots that stand out
 };
 
+/// Direct irradiance at a point of a surface side, where it is known more closely than as the leaf's mean; false where not.
+using DirectAtHit = std::function<bool(const Hit& hit, Rgb& irradiance)>;
+
 /// Needs the hierarchy as it is after a solution, unchanged as long as this lives. Safe from any thread.
 class IndirectGather {
 public:
     /// `bright` flags leaves that are gathered by name and left out of the hemisphere (bright_leaves()).
-    IndirectGather(const Hierarchy& solved, const RayScene& rays, LeafFlags bright);
+    IndirectGather(const Hierarchy& solved, const RayScene& rays, LeafFlags bright, DirectAtHit direct = {});
     IndirectGather(const IndirectGather&) = delete;
     IndirectGather& operator=(const IndirectGather&) = delete;
 
@@ -37,6 +41,7 @@ private:
     const Hierarchy& h_;
     const RayScene& rays_;
     LeafFlags bright_;
+    DirectAtHit direct_;
     Hierarchy bright_tree_; ///< empty when nothing stands out
     PointGather bright_gather_;
     float offset_ = 1e-4F;         ///< of ray origins from their surface, metres

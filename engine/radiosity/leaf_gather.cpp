@@ -13,9 +13,12 @@ constexpr int kMostPanes = 16;
 
 } // namespace
 
-LeafGather::LeafGather(const Hierarchy& h, const RayScene& rays, unsigned rays_per_leaf,
+LeafGather::LeafGather(const Hierarchy& h, const RayScene& rays, unsigned rays_per_leaf, std::size_t first,
                        const std::function<bool(const SurfacePoint&)>& covered, const RunContext& context)
-    : leaves_(h.leaves()), row_sums_(leaves_.size(), 0.0F) {
+    : leaves_(h.leaves()) {
+    std::erase_if(leaves_, [&](std::uint32_t leaf) { return leaf < first; });
+    row_sums_.assign(leaves_.size(), 0.0F);
+    groups_.resize(leaves_.size());
     const float offset = std::clamp(1e-5F * rays.bounds().diagonal(), 1e-6F, 1e-3F);
     std::vector<std::vector<Entry>> parts(chunk_count(leaves_.size(), kGrain));
     std::vector<std::uint32_t> count(leaves_.size(), 0);
@@ -31,6 +34,15 @@ LeafGather::LeafGather(const Hierarchy& h, const RayScene& rays, unsigned rays_p
                     continue;
                 }
                 ++shot;
+                const vec3 from_centre = p.position - h.elements[leaves_[i]].centre;
+                vec3 t1;
+                vec3 b1;
+                make_frame(h.elements[leaves_[i]].kind == Element::Kind::Patch ? h.elements[leaves_[i]].normal
+                                                                               : vec3(0, 1, 0),
+                           t1, b1);
+                Group& group =
+                    groups_[i][(glm::dot(from_centre, t1) > 0.0F ? 1U : 0U) + (glm::dot(from_centre, b1) > 0.0F ? 2U : 0U)];
+                Rgb brought(0.0F);
                 const vec2 u = sobol_owen2(k, 0, seed);
                 vec3 t;
                 vec3 b;
@@ -48,10 +60,14 @@ LeafGather::LeafGather(const Hierarchy& h, const RayScene& rays, unsigned rays_p
                     const std::uint32_t leaf = h.leaf_at(hit.surface, hit.triangle, !hit.front, hit.barycentric);
                     if (leaf != Element::kNone) {
                         out.push_back({leaf, through});
+                        brought += h.elements[leaf].radiosity * through;
                     }
                     through *= luminance(rays.straight_through(hit, d));
                     origin += d * (hit.t + std::max(1e-5F, 1e-6F * hit.t));
                 }
+                group.light += brought;
+                group.light2 += luminance(brought) * luminance(brought);
+                group.rays += 1.0F;
             }
             for (std::size_t j = before; j < out.size(); ++j) {
                 out[j].weight /= float(shot);
@@ -70,6 +86,36 @@ LeafGather::LeafGather(const Hierarchy& h, const RayScene& rays, unsigned rays_p
     for (const auto& part : parts) {
         entries_.insert(entries_.end(), part.begin(), part.end());
     }
+}
+
+std::size_t LeafGather::split_uneven(Hierarchy& h, const RayScene& rays, float contrast, float floor) const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+        if (!h.can_split(leaves_[i])) {
+            continue;
+        }
+        Group all;
+        for (const Group& g : groups_[i]) {
+            all.light += g.light;
+            all.light2 += g.light2;
+            all.rays += g.rays;
+        }
+        if (!(all.rays > 0.0F)) {
+            continue;
+        }
+        const float mean = luminance(all.light) / all.rays;
+        const float variance = std::max(all.light2 / all.rays - mean * mean, 0.0F);
+        bool uneven = false;
+        for (const Group& g : groups_[i]) {
+            const float d = g.rays > 0.0F ? std::abs(luminance(g.light) / g.rays - mean) : 0.0F;
+            uneven = uneven || (d > contrast * std::max(mean, floor) && d * d * g.rays > 6.0F * variance);
+        }
+        if (uneven) {
+            h.split(leaves_[i], rays);
+            ++count;
+        }
+    }
+    return count;
 }
 
 int LeafGather::solve(Hierarchy& h, double tolerance, int max_sweeps, const RunContext& context) const {

@@ -93,6 +93,17 @@ struct GiEngine::Impl {
         return direct->irradiance(point, normal, settings);
     }
 
+    // Direct light at a point of a charted surface, from its map.
+    bool mapped_light(const Hit& hit, Rgb& irradiance) const {
+        const SurfaceCharts& surface = charts[hit.surface];
+        if (surface.empty() || surface.chart_of_triangle[hit.triangle] == SurfaceCharts::kNone) {
+            return false;
+        }
+        const auto& map = hit.front ? maps.front[hit.surface] : maps.back[hit.surface];
+        irradiance = map ? map->irradiance(chart_uv(surface, hit.triangle, hit.barycentric)) : Rgb(0.0F);
+        return true;
+    }
+
     // What counts as dark before anything is solved: a twentieth of the mean direct light at a few hundred points, lux.
     [[nodiscard]] float guess_floor(const QualitySettings& quality) const {
         if (hierarchy.empty() || nothing_direct()) {
@@ -422,7 +433,8 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     const auto layers = [&](const LayerSettings& wanted, const FieldSettings& field, double from, double to) {
         timer.next("layers");
         s.reflected =
-            std::make_unique<IndirectGather>(s.hierarchy, *s.rays, bright_leaves(s.hierarchy, {}, quality.bright_contrast));
+            std::make_unique<IndirectGather>(s.hierarchy, *s.rays, bright_leaves(s.hierarchy, {}, quality.bright_contrast),
+                                             [&s](const Hit& hit, Rgb& light) { return s.mapped_light(hit, light); });
         CacheSettings cache_settings = field.cache;
         cache_settings.light_floor = light_floor;
         IrradianceCache cache(
@@ -507,10 +519,26 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         if (!context.should_stop()) {
             // Rays know what stands close to a leaf, which links average away.
             timer.next("leaf_gather");
-            const LeafGather gather(
-                s.hierarchy, *s.rays, quality.leaf_rays,
-                [&](const SurfacePoint& p) { return is_covered(*s.rays, p.position, p.normal, quality.maps.cover_reach); },
-                context);
+            const auto covered = [&](const SurfacePoint& p) {
+                return is_covered(*s.rays, p.position, p.normal, quality.maps.cover_reach);
+            };
+            std::size_t first_look = 0;                    // elements from here on have not been looked at
+            s.hierarchy.settings.smallest_patch *= 0.125F; // links have no use for such small ones
+            for (int level = 0; level < quality.leaf_levels && !context.should_stop(); ++level) {
+                const std::size_t first_new = s.hierarchy.elements.size();
+                const LeafGather look(s.hierarchy, *s.rays, quality.leaf_rays / 2, first_look, covered, context);
+                first_look = first_new;
+                if (!look.complete() || look.split_uneven(s.hierarchy, *s.rays, quality.leaf_contrast, light_floor) == 0) {
+                    break;
+                }
+                s.light_new_leaves(first_new, quality, context);
+                for (std::size_t i = first_new; i < s.hierarchy.elements.size(); ++i) {
+                    Element& e = s.hierarchy.elements[i];
+                    e.irradiance = s.hierarchy.elements[e.parent].irradiance;
+                    e.radiosity = e.emitted + e.rho * (e.direct + e.irradiance);
+                }
+            }
+            const LeafGather gather(s.hierarchy, *s.rays, quality.leaf_rays, 0, covered, context);
             if (gather.complete()) {
                 statistics.iterations +=
                     gather.solve(s.hierarchy, 10.0 * quality.solver_tolerance, quality.max_iterations, context);
