@@ -36,9 +36,8 @@ std::uint64_t IrradianceCache::cell_key(int level, const Cell& c) {
 }
 
 // Cells of a level are as large as the longest diameter of its records: a record lies in at most eight.
-void IrradianceCache::insert(const Record& record) {
-    const auto index = std::uint32_t(records_.size());
-    records_.push_back(record);
+void IrradianceCache::insert(std::uint32_t index) {
+    const Place& record = places_[index];
     const int level = level_of(record.reach);
     const float size = 2.0F * settings_.smallest_reach * std::exp2(float(level));
     const Cell low = cell_of(record.position - vec3(record.reach), size);
@@ -52,7 +51,7 @@ void IrradianceCache::insert(const Record& record) {
     }
 }
 
-float IrradianceCache::weight(const Record& r, const vec3& point, const vec3& normal) const {
+float IrradianceCache::weight(const Place& r, const vec3& point, const vec3& normal) const {
     const vec3 d = point - r.position;
     const float distance2 = glm::dot(d, d);
     const float cosine = glm::dot(normal, r.normal);
@@ -67,7 +66,7 @@ float IrradianceCache::weight(const Record& r, const vec3& point, const vec3& no
 }
 
 // Lifted off both surfaces by more than the bulge of a round one between them.
-bool IrradianceCache::sees(const Record& r, const vec3& point, const vec3& normal) const {
+bool IrradianceCache::sees(const Place& r, const vec3& point, const vec3& normal) const {
     const float distance = glm::length(point - r.position);
     const float lift = 0.08F * distance + 1e-3F * settings_.smallest_reach;
     return distance < 1e-3F * settings_.smallest_reach ||
@@ -84,9 +83,9 @@ std::size_t IrradianceCache::find(const vec3& point, const vec3& normal, std::ui
             continue;
         }
         for (const std::uint32_t index : it->second) {
-            const float w = index == skip ? 0.0F : weight(records_[index], point, normal);
+            const float w = index == skip ? 0.0F : weight(places_[index], point, normal);
             if (!(w > (any ? kWithinReach : 0.0F)) || (count == kMostUsed && w <= out[count - 1].weight) ||
-                !sees(records_[index], point, normal)) {
+                !sees(places_[index], point, normal)) {
                 continue;
             }
             if (any) {
@@ -104,10 +103,11 @@ std::size_t IrradianceCache::find(const vec3& point, const vec3& normal, std::ui
     return count;
 }
 
-Rgb IrradianceCache::predict(const Record& r, const vec3& point) const {
-    const vec3 d = point - r.position;
+Rgb IrradianceCache::predict(std::uint32_t record, const vec3& point) const {
+    const Record& r = records_[record];
+    const vec3 d = point - places_[record].position;
     const float u = glm::dot(d, r.tangent);
-    const float v = glm::dot(d, glm::cross(r.normal, r.tangent));
+    const float v = glm::dot(d, glm::cross(places_[record].normal, r.tangent));
     return glm::max(r.irradiance + r.gradient[0] * u + r.gradient[1] * v, Rgb(0.0F));
 }
 
@@ -121,10 +121,10 @@ FieldSample IrradianceCache::at(const vec3& point, const vec3& normal) const {
     float sum = 0.0F;
     for (std::size_t i = 0; i < count; ++i) {
         const Record& r = records_[used[i].record];
-        out.irradiance += predict(r, point) * used[i].weight;
+        out.irradiance += predict(used[i].record, point) * used[i].weight;
         // Neighbouring records use the same directions: their errors are alike and do not average out.
         out.variance += r.variance * used[i].weight;
-        out.distance += r.reach / settings_.spacing * used[i].weight;
+        out.distance += places_[used[i].record].reach / settings_.spacing * used[i].weight;
         sum += used[i].weight;
     }
     out.irradiance /= sum;
@@ -184,15 +184,17 @@ bool IrradianceCache::add_round(std::span<const SurfacePoint> points, std::vecto
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         const SurfacePoint& p = points[chosen[i]];
         Record r;
-        r.position = p.position;
-        r.normal = p.normal;
         r.irradiance = samples[i].irradiance;
         r.variance = samples[i].variance;
-        r.reach = std::clamp(std::min(settings_.spacing * samples[i].distance, settings_.to_nearest * samples[i].nearest),
-                             settings_.smallest_reach, settings_.largest_reach);
+        Place place{p.position, 0.0F, p.normal};
+        place.reach =
+            std::clamp(std::min(settings_.spacing * samples[i].distance, settings_.to_nearest * samples[i].nearest),
+                       settings_.smallest_reach, settings_.largest_reach);
         vec3 b;
         make_frame(p.normal, r.tangent, b);
-        insert(r);
+        records_.push_back(r);
+        places_.push_back(place);
+        insert(std::uint32_t(records_.size() - 1));
     }
     open = std::move(left);
     return true;
@@ -224,17 +226,18 @@ void IrradianceCache::fit_gradients() {
         std::array<Use, kMostUsed> used;
         for (std::size_t i = begin; i < end; ++i) {
             const Record& r = records_[i];
+            const Place& at = places_[i];
             gradient[i] = {Rgb(0.0F), Rgb(0.0F)};
-            const std::size_t count = find(r.position, r.normal, std::uint32_t(i), false, used);
+            const std::size_t count = find(places_[i].position, places_[i].normal, std::uint32_t(i), false, used);
             if (count < 3) {
                 continue;
             }
-            const vec3 bitangent = glm::cross(r.normal, r.tangent);
+            const vec3 bitangent = glm::cross(at.normal, r.tangent);
             double uu = 0.0, uv = 0.0, vv = 0.0;
             Rgb ue(0.0F), ve(0.0F);
             for (std::size_t k = 0; k < count; ++k) {
                 const Record& other = records_[used[k].record];
-                const vec3 d = other.position - r.position;
+                const vec3 d = places_[used[k].record].position - at.position;
                 const float u = glm::dot(d, r.tangent), v = glm::dot(d, bitangent), w = used[k].weight;
                 uu += double(w) * u * u;
                 uv += double(w) * u * v;
@@ -260,11 +263,11 @@ void IrradianceCache::fit_gradients() {
         std::array<Use, kMostUsed> used;
         for (std::size_t i = begin; i < end; ++i) {
             const Record& r = records_[i];
-            const std::size_t count = find(r.position, r.normal, std::uint32_t(i), false, used);
+            const std::size_t count = find(places_[i].position, places_[i].normal, std::uint32_t(i), false, used);
             Rgb sum(0.0F);
             float weights = 0.0F;
             for (std::size_t k = 0; k < count; ++k) {
-                sum += predict(records_[used[k].record], r.position) * used[k].weight;
+                sum += predict(used[k].record, places_[i].position) * used[k].weight;
                 weights += used[k].weight;
             }
             if (weights > 0.0F) {
@@ -278,12 +281,19 @@ void IrradianceCache::fit_gradients() {
 std::size_t IrradianceCache::shorten() {
     std::size_t count = 0;
     for (std::size_t i = 0; i < records_.size(); ++i) {
-        Record& r = records_[i];
-        // Between records the error is smaller than at one that is left out: about half.
-        if (error_[i] > 2.0F * settings_.contrast && r.reach > settings_.smallest_reach) {
-            r.reach =
-                std::max(0.6F * r.reach, settings_.smallest_reach); // stays in its cells: they hold more than it reaches
+        float& reach = places_[i].reach;
+        // Between records the error is smaller than at one that is left out: about half. What chance explains is none.
+        const float noise =
+            3.0F * std::sqrt(records_[i].variance) / std::max(luminance(records_[i].irradiance), settings_.light_floor);
+        if (error_[i] > std::max(2.0F * settings_.contrast, noise) && reach > settings_.smallest_reach) {
+            reach = std::max(0.6F * reach, settings_.smallest_reach);
             ++count;
+        }
+    }
+    if (count > 0) {
+        cells_.clear();
+        for (std::uint32_t i = 0; i < records_.size(); ++i) {
+            insert(i);
         }
     }
     return count;
@@ -295,9 +305,10 @@ bool IrradianceCache::cover(std::span<const SurfacePoint> points, const RunConte
         if (!cover_reach(points, context)) {
             return false;
         }
-        if (records_.size() != before || round == 0) {
-            fit_gradients();
+        if (records_.size() == before) {
+            break; // nothing new to judge
         }
+        fit_gradients();
         if (context.should_stop()) {
             return false;
         }

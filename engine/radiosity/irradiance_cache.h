@@ -50,12 +50,15 @@ public:
     [[nodiscard]] double interpolation_error() const;
 
 private:
-    struct Record {
+    /// Where a record holds: all that a search reads.
+    struct Place {
         vec3 position;
+        float reach;
         vec3 normal;
+    };
+    struct Record {
         Rgb irradiance;
         float variance;
-        float reach;
         vec3 tangent;                                      ///< with normal x tangent spans the plane of the gradient
         std::array<Rgb, 2> gradient{Rgb(0.0F), Rgb(0.0F)}; ///< per metre along tangent and normal x tangent
     };
@@ -65,18 +68,18 @@ private:
     };
     static constexpr std::size_t kMostUsed = 12;
 
-    [[nodiscard]] float weight(const Record& r, const vec3& point, const vec3& normal) const;
-    [[nodiscard]] bool sees(const Record& r, const vec3& point, const vec3& normal) const;
+    [[nodiscard]] float weight(const Place& r, const vec3& point, const vec3& normal) const;
+    [[nodiscard]] bool sees(const Place& r, const vec3& point, const vec3& normal) const;
     /// Records that reach a point, the nearest kMostUsed, in order of index; `skip` is left out. Returns their number.
     std::size_t find(const vec3& point, const vec3& normal, std::uint32_t skip, bool any,
                      std::array<Use, kMostUsed>& out) const;
-    [[nodiscard]] Rgb predict(const Record& r, const vec3& point) const;
-    void insert(const Record& record);
+    [[nodiscard]] Rgb predict(std::uint32_t record, const vec3& point) const;
+    void insert(std::uint32_t record);
     bool add_round(std::span<const SurfacePoint> points, std::vector<std::uint32_t>& open, float separation,
                    const RunContext& context);
     bool cover_reach(std::span<const SurfacePoint> points, const RunContext& context);
     void fit_gradients();
-    /// Shortens the reach of records that their neighbours do not predict; number of them.
+    /// Shortens the reach of records that their neighbours do not predict and finds their cells anew; number of them.
     std::size_t shorten();
     [[nodiscard]] int level_of(float reach) const;
     [[nodiscard]] static std::uint64_t cell_key(int level, const glm::vec<3, std::int32_t>& cell);
@@ -85,7 +88,8 @@ private:
     Sampler sampler_;
     CacheSettings settings_;
     std::vector<Record> records_;
-    std::vector<float> error_; ///< per record, relative, of the interpolation from its neighbours; negative = not known
+    std::vector<Place> places_; ///< of the records
+    std::vector<float> error_;  ///< per record, relative, of the interpolation from its neighbours; negative = not known
     int levels_ = 1;
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };

@@ -111,6 +111,7 @@ struct SingleRays {
     }
 };
 
+constexpr unsigned kFewRays = 8;             // that are shot at an element before they may be found to agree
 constexpr std::uint64_t kPickSalt = 0x9E37U; // keeps the picks apart from the elements' sample points
 
 } // namespace
@@ -122,7 +123,12 @@ PointGather::Visibility PointGather::visibility(std::uint32_t element, const Sur
     float total_weight = 0.0F;
     // The same points for every receiver: shadows get a few fine steps instead of noise. Points that face away are passed
     // over, up to four tries for each ray.
+    // A quarter of the rays is enough where all of them agree: they are spread over the whole element.
+    const unsigned first = std::max(count / 4, kFewRays);
     for (unsigned i = 0; out.rays < count && i < 4 * count; ++i) {
+        if (out.rays == first && (out.clear == 0.0F || out.clear == float(first))) {
+            break;
+        }
         const SurfacePoint y = sample_point(h_, rays_, element, sobol_owen2(i, 0, seed), true);
         const vec3 d = y.position - receiver.position;
         const float d2 = glm::dot(d, d);

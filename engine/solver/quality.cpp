@@ -25,13 +25,13 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         FieldSettings f;
         f.direct = {tolerance, cut, rays, sun, sky};
         f.reflected.rays = hemisphere;
-        f.reflected.max_rays = 4 * hemisphere;
+        f.reflected.max_rays = 2 * hemisphere;
         f.reflected.tolerance = tolerance;
         f.reflected.bright = {2.0F * tolerance, cut, rays, 0, 0};
         f.cache.spacing = std::clamp(2.5F * std::sqrt(tolerance), 0.2F, 0.6F);
-        f.cache.smallest_reach = 1.5F * tolerance * unit;
+        f.cache.smallest_reach = 2.0F * tolerance * unit;
         f.cache.largest_reach = 1.0F * unit;
-        f.cache.contrast = 2.0F * tolerance;
+        f.cache.contrast = 4.0F * tolerance;
         return f;
     };
     out.charts.tile_edge = 0.32F * unit;
@@ -40,8 +40,8 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     double usual_error = 0.05;
     switch (quality) {
     case SolverSettings::Quality::Draft:
-        set(0.5F, 0.2F, 2e-3F, 4, 1.0F, 0.12F, 0.15F);
-        out.field = look(0.05F, 96, 24, 16, 36, 128);
+        set(0.5F, 0.2F, 2e-3F, 4, 1.0F, 0.16F, 0.2F);
+        out.field = look(0.05F, 96, 24, 16, 36, 64);
         out.maps.first_level = 1;
         out.maps.max_level = 4;
         out.maps.contrast = 0.06F;
@@ -51,12 +51,12 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         usual_error = 0.10;
         break;
     case SolverSettings::Quality::Normal:
-        set(0.3F, 0.15F, 5e-4F, 8, 0.5F, 0.03F, 0.06F);
-        out.field = look(0.02F, 192, 64, 64, 96, 256);
+        set(0.3F, 0.15F, 5e-4F, 8, 0.5F, 0.06F, 0.1F);
+        out.field = look(0.02F, 192, 64, 64, 96, 128);
         break;
     case SolverSettings::Quality::Fine:
-        set(0.15F, 0.08F, 1e-4F, 16, 0.25F, 0.015F, 0.03F);
-        out.field = look(0.008F, 400, 192, 128, 256, 1024);
+        set(0.15F, 0.08F, 1e-4F, 16, 0.25F, 0.03F, 0.05F);
+        out.field = look(0.01F, 400, 192, 128, 256, 512);
         out.maps.first_level = 3;
         out.maps.max_level = 7;
         out.maps.contrast = 0.015F;
