@@ -20,7 +20,9 @@ constexpr std::size_t kGrain = 32;
 LightPart::LightPart(const LightSheets& sheets, const DirectPart& part, const std::vector<LightPart>& before,
                      const DirectMapSettings& settings, TileBudget& budget, const RunContext& context)
     : sheets_(sheets), part_(part), before_(before), settings_(settings), budget_(budget), context_(context),
-      finest_(settings.max_level - (part.soft && settings.max_level > settings.first_level ? 1 : 0)),
+      contrast_(part.soft ? 2.0F * settings.contrast : settings.contrast),
+      finest_(part.soft ? std::max(settings.first_level, settings.max_level - std::min(settings.max_level, 2U))
+                        : settings.max_level),
       cells_(settings.first_level, settings.max_level) {
     for (const LightSheet& s : sheets.sheets()) {
         cells_.add_sheet(s.chart->tiles_u, s.chart->tiles_v, s.used);
@@ -244,7 +246,7 @@ float LightPart::change_at_cover(const LightCell& c, std::uint32_t known, std::u
                     std::max(light, before.light));
 }
 
-// How far interpolation in a cell is off, relative to the light; above settings_.contrast it is to be divided.
+// How far interpolation in a cell is off, relative to the light; above contrast_ it is to be divided.
 float LightPart::error(const LightCell& c) const {
     const auto corner = cells_.corners(c);
     const std::uint32_t s = cells_.steps(c.level);
@@ -267,7 +269,7 @@ float LightPart::error(const LightCell& c) const {
     const vec2 at = probe.at - vec2(float(c.x), float(c.y));
     const bool probed = at.x >= 0.0F && at.y >= 0.0F && at.x < float(s) && at.y < float(s);
     const bool wide = edge_metres(c) > kCoverEdge;
-    float worst = wide && (covered > 0 || (probed && probe.covered)) && lit_around(c) ? 2.0F * settings_.contrast : 0.0F;
+    float worst = wide && (covered > 0 || (probed && probe.covered)) && lit_around(c) ? 2.0F * contrast_ : 0.0F;
     // Edges of the cell as pairs of corners: two along u, two along v.
     static constexpr std::size_t kEdges[4][2] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}};
     for (std::size_t e = 0; e < 4; ++e) {
@@ -329,7 +331,7 @@ void LightPart::examine(const std::vector<LightCell>& fresh, std::vector<Rough>&
         }
     });
     for (std::size_t i = 0; i < fresh.size(); ++i) {
-        if (errors[i] > settings_.contrast) {
+        if (errors[i] > contrast_) {
             rough.push_back({fresh[i], errors[i]});
         }
     }
@@ -349,7 +351,7 @@ void LightPart::look_beside(std::size_t first_new, std::vector<Rough>& rough) co
     });
     for (const auto& four : found) {
         for (const Rough& r : four) {
-            if (r.error > settings_.contrast) {
+            if (r.error > contrast_) {
                 rough.push_back(r);
             }
         }
@@ -366,7 +368,7 @@ LightPart::Rough LightPart::beside(const LightNode& n, std::size_t quadrant) con
         return {}; // its own corner
     }
     if (n.state == State::Covered) {
-        return {*cell, edge_metres(*cell) > kCoverEdge && lit_around(*cell) ? 2.0F * settings_.contrast : 0.0F};
+        return {*cell, edge_metres(*cell) > kCoverEdge && lit_around(*cell) ? 2.0F * contrast_ : 0.0F};
     }
     return {*cell, off(*cell, {luminance(n.irradiance), n.variance, true}, float(dx), float(dy))};
 }

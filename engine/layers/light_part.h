@@ -79,6 +79,7 @@ private:
     const DirectMapSettings& settings_;
     TileBudget& budget_;
     const RunContext& context_;
+    float contrast_;  ///< of this part: error of the interpolation that asks for finer cells
     unsigned finest_; ///< level below which this part's cells are not divided
     LightCells cells_;
     std::vector<std::size_t> first_probe_; ///< per sheet; a probe per cell of the first level, row by row

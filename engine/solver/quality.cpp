@@ -28,8 +28,8 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         f.reflected.max_rays = 2 * hemisphere;
         f.reflected.tolerance = tolerance;
         f.reflected.bright = {2.0F * tolerance, cut, rays, 0, 0};
-        f.cache.spacing = std::clamp(2.5F * std::sqrt(tolerance), 0.2F, 0.6F);
-        f.cache.smallest_reach = 2.0F * tolerance * unit;
+        f.cache.spacing = std::clamp(3.0F * std::sqrt(tolerance), 0.25F, 0.7F);
+        f.cache.smallest_reach = 3.0F * tolerance * unit;
         f.cache.largest_reach = 1.0F * unit;
         f.cache.contrast = 4.0F * tolerance;
         return f;
@@ -51,7 +51,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         usual_error = 0.10;
         break;
     case SolverSettings::Quality::Normal:
-        set(0.3F, 0.15F, 5e-4F, 8, 0.5F, 0.06F, 0.1F);
+        set(0.3F, 0.15F, 5e-4F, 8, 0.5F, 0.1F, 0.12F);
         out.field = look(0.02F, 192, 64, 64, 96, 128);
         break;
     case SolverSettings::Quality::Fine:
@@ -80,14 +80,21 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         out.field.reflected.tolerance = float(out.field.reflected.tolerance / ratio);
         out.refine.flux_threshold = float(out.refine.flux_threshold / ratio);
     }
-    out.first_field = look(0.1F, 96, 16, 8, 24, 64);
+    out.first_field = look(0.1F, 96, 16, 8, 24, 32);
+    out.first_field.reflected.max_rays = 32;
+    out.first_field.reflected.bright.rays = 8;
+    out.first_field.cache.smallest_reach = 0.25F * unit;
+    out.first_field.cache.spacing = 0.8F;
+    out.first_field.cache.to_nearest = 2.0F;
+    out.first_field.cache.normal_cosine = 0.7F;
+    out.first_field.cache.contrast = 1e6F; // no second look
     out.leaf_field = look(0.05F, 96, 8, 1, std::max(out.field.direct.sky_rays / 8, 16U), 16);
     out.maps.cover_reach = 0.01F * unit; // contact, not a gap: what is dark between books stays dark
     out.layers.cover_reach = out.maps.cover_reach;
     out.first_maps = out.maps;
-    out.first_maps.first_level = 1;
+    out.first_maps.first_level = 0;
     out.first_maps.max_level = 3;
-    out.first_maps.contrast = 0.1F;
+    out.first_maps.contrast = 0.2F;
     out.first_layers = out.layers;
     out.first_layers.base_edge = 2.0F * out.layers.base_edge;
     out.first_layers.max_vertices = 20'000;
