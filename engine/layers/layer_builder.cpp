@@ -12,7 +12,7 @@
 namespace atrium {
 namespace {
 
-constexpr float kPullIn = 0.01F; // metres at most that a sample is moved off its vertex towards the triangles' inside
+constexpr float kPullIn = 0.03F; // metres at most that a sample is moved off its vertex towards the triangles' inside
 
 class LayerBuild {
 public:

@@ -108,7 +108,7 @@ std::size_t LeafGather::split_uneven(Hierarchy& h, const RayScene& rays, float c
         bool uneven = false;
         for (const Group& g : groups_[i]) {
             const float d = g.rays > 0.0F ? std::abs(luminance(g.light) / g.rays - mean) : 0.0F;
-            uneven = uneven || (d > contrast * std::max(mean, floor) && d * d * g.rays > 6.0F * variance);
+            uneven = uneven || (d > contrast * std::max(mean, floor) && d * d * g.rays > 4.0F * variance);
         }
         if (uneven) {
             h.split(leaves_[i], rays);

@@ -526,7 +526,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
             s.hierarchy.settings.smallest_patch *= 0.125F; // links have no use for such small ones
             for (int level = 0; level < quality.leaf_levels && !context.should_stop(); ++level) {
                 const std::size_t first_new = s.hierarchy.elements.size();
-                const LeafGather look(s.hierarchy, *s.rays, quality.leaf_rays / 2, first_look, covered, context);
+                const LeafGather look(s.hierarchy, *s.rays, quality.leaf_rays, first_look, covered, context);
                 first_look = first_new;
                 if (!look.complete() || look.split_uneven(s.hierarchy, *s.rays, quality.leaf_contrast, light_floor) == 0) {
                     break;

@@ -34,8 +34,8 @@ struct QualitySettings {
     double solver_tolerance = 1e-4; ///< relative residual
     int max_iterations = 400;
     unsigned leaf_rays = 128;    ///< over the hemisphere of every leaf, a power of two
-    int leaf_levels = 3;         ///< rounds of splitting leaves on which reflected light is uneven
-    float leaf_contrast = 0.25F; ///< what counts as uneven, relative
+    int leaf_levels = 4;         ///< rounds of splitting leaves on which reflected light is uneven
+    float leaf_contrast = 0.2F; ///< what counts as uneven, relative
     unsigned leaf_samples = 4;   ///< direct-light samples on a leaf
 };
 
