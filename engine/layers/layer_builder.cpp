@@ -12,7 +12,8 @@
 namespace atrium {
 namespace {
 
-constexpr float kPullIn = 0.03F; // metres at most that a sample is moved off its vertex towards the triangles' inside
+constexpr float kPullIn =
+    0.25F; // of the shortest edge: how far a sample is moved off its vertex towards the triangles' inside
 
 class LayerBuild {
 public:
@@ -233,11 +234,13 @@ private:
 
     // Where the light of a vertex is sampled: moved a little into its triangles, so that walls meeting there do not hide it,
     // but never behind the side's own surface (on a ball the triangles' middles lie below the vertex).
-    [[nodiscard]] static vec3 sample_position(const LightVertex& v, const vec3& n) {
+    // What shines through the crack of a door is seen at its edge only: samples stand for as much as the mesh resolves.
+    [[nodiscard]] vec3 sample_position(const LightVertex& v, const vec3& n) const {
         vec3 inwards = v.triangles > 0.0F ? v.towards / v.triangles : vec3(0.0F);
         inwards -= n * std::min(glm::dot(inwards, n), 0.0F);
         const float length = glm::length(inwards);
-        return length > 0.0F ? v.position + inwards * std::min(0.1F, kPullIn / length) : v.position;
+        return length > 0.0F ? v.position + inwards * std::min(0.35F, kPullIn * settings_.smallest_edge / length)
+                             : v.position;
     }
 
     void sample_vertex(LightVertex& v) const {
