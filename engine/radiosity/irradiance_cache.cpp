@@ -219,12 +219,12 @@ bool IrradianceCache::cover_reach(std::span<const SurfacePoint> points, const Ru
     return true;
 }
 
-void IrradianceCache::fit_gradients() {
+void IrradianceCache::fit_gradients(const RunContext& context) {
     error_.assign(records_.size(), -1.0F);
     std::vector<std::array<Rgb, 2>> gradient(records_.size());
     parallel_chunks(records_.size(), 128, [&](std::size_t begin, std::size_t end, std::size_t) {
         std::array<Use, kMostUsed> used;
-        for (std::size_t i = begin; i < end; ++i) {
+        for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
             const Record& r = records_[i];
             const Place& at = places_[i];
             gradient[i] = {Rgb(0.0F), Rgb(0.0F)};
@@ -261,7 +261,7 @@ void IrradianceCache::fit_gradients() {
     }
     parallel_chunks(records_.size(), 128, [&](std::size_t begin, std::size_t end, std::size_t) {
         std::array<Use, kMostUsed> used;
-        for (std::size_t i = begin; i < end; ++i) {
+        for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
             const Record& r = records_[i];
             const std::size_t count = find(places_[i].position, places_[i].normal, std::uint32_t(i), false, used);
             Rgb sum(0.0F);
@@ -308,7 +308,7 @@ bool IrradianceCache::cover(std::span<const SurfacePoint> points, const RunConte
         if (records_.size() == before) {
             break; // nothing new to judge
         }
-        fit_gradients();
+        fit_gradients(context);
         if (context.should_stop()) {
             return false;
         }

@@ -26,6 +26,8 @@ struct Census {
     std::set<TextureId> textures;
     std::size_t suns = 0;
     std::string first_sun;
+    std::size_t lamps = 0;    ///< point and spot lights that shine
+    std::size_t emitters = 0; ///< luminous surfaces
 };
 
 void count_textures(const Scene& scene, const Material& m, std::set<TextureId>& out) {
@@ -53,6 +55,8 @@ Census take_census(const Scene& scene) {
             if (c.suns++ == 0) {
                 c.first_sun = quoted(light->name.empty() ? node.name : light->name, "a directional light");
             }
+        } else if (light != nullptr && light->enabled && light->intensity > 0.0F) {
+            ++c.lamps;
         }
         const std::size_t parts = shape != nullptr ? part_count(*shape) : 0;
         for (std::size_t part = 0; part < parts; ++part) {
@@ -60,6 +64,7 @@ Census take_census(const Scene& scene) {
             const Material& m = found != nullptr ? *found : default_material();
             const MaterialKind kind = classify(m);
             ++c.surfaces;
+            c.emitters += m.emits() ? 1 : 0;
             c.mirrors += kind == MaterialKind::Mirror ? 1 : 0;
             c.glossy += kind == MaterialKind::Glossy ? 1 : 0;
             c.glass += m.transmission > 0.0F ? 1 : 0;
@@ -125,6 +130,23 @@ std::string transmittance_why(const Census& c) {
     return out.empty() ? "Every surface is opaque." : out + ".";
 }
 
+std::string direct_layer_why(const Census& c, bool sky) {
+    std::string what;
+    const auto add = [&](std::size_t n, const char* one, const char* many) {
+        if (n > 0) {
+            what += (what.empty() ? "" : ", ") + counted(n, one, many);
+        }
+    };
+    add(c.suns, "sun", "suns");
+    add(c.lamps, "lamp", "lamps");
+    add(c.emitters, "luminous surface", "luminous surfaces");
+    if (sky) {
+        what += what.empty() ? "the sky" : ", the sky";
+    }
+    return what.empty() ? "Nothing in the scene gives light."
+                        : "Light straight from its source is kept per texel: " + what + ".";
+}
+
 std::string sky_why(const Scene& scene) {
     const float radiance = luminance(scene.environment.sky_radiance);
     return radiance > 0.0F ? "The sky shines with " + std::to_string(std::lround(std::fmax(radiance, 1.0F))) + " cd/m2."
@@ -155,8 +177,7 @@ std::vector<Feature> scene_features(const Scene& scene) {
         {"textures", !c.textures.empty(),
          c.textures.empty() ? "No shown surface has a texture that changes light."
                             : "Surfaces are coloured by " + counted(c.textures.size(), "texture", "textures") + "."},
-        {"direct_layer", false,
-         "Not kept apart in this version: direct light is on the display mesh's vertices, which is finer along shadows."},
+        {"direct_layer", sky || c.suns + c.lamps + c.emitters > 0, direct_layer_why(c, sky)},
         {"specular_view", specular, specular_view_why(c)},
         {"transmittance", c.glass + c.blended > 0, transmittance_why(c)},
         {"alpha_cutouts", c.cutouts > 0,

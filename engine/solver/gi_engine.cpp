@@ -384,10 +384,17 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     statistics.time.build = seconds_since(start);
     s.name_emitters(quality.emitter_contrast, quality.maps.cover_reach);
 
+    for (Feature& feature : statistics.features) {
+        if (feature.name == "direct_layer" && feature.used && s.nothing_direct()) {
+            feature.used = false;
+            feature.why = "No source stands out from what the other surfaces of its room emit: the links carry all light.";
+        }
+    }
     float light_floor = s.guess_floor(quality);
     timer.next("charts");
-    s.charts = chart_surfaces(*s.rays, quality.charts);
-    // Double-sided surfaces may be lit from behind: the maps of sides on which nothing falls cost nothing.
+    // Where no light comes straight from a source there is nothing to map.
+    s.charts =
+        s.nothing_direct() ? std::vector<SurfaceCharts>(s.rays->surfaces().size()) : chart_surfaces(*s.rays, quality.charts);
     const auto direct_maps = [&](const DirectMapSettings& wanted, const FieldSettings& field, double from, double to) {
         timer.next("direct");
         DirectMapSettings settings = wanted;

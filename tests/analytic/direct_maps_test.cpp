@@ -142,8 +142,7 @@ TEST(DirectMaps, PenumbraOfAGlowingPanel) {
         e.radiosity = e.leaf() ? e.emitted : Rgb(0.0F);
     }
     hierarchy.pull_radiosity();
-    const DirectLight none(floor.scene, *floor.rays);
-    const PointGather gather(hierarchy, *floor.rays, &none);
+    const PointGather gather(hierarchy, *floor.rays);
     GatherSettings settings;
     settings.rays = 256;
     floor.build([&](const vec3& p, const vec3& n) { return gather.irradiance(p, n, settings); });

@@ -139,7 +139,7 @@ TEST(EngineRun, ProgressNeverFallsAndEndsAtOne) {
     for (const Progress& p : reports) {
         phases.emplace(p.phase);
     }
-    EXPECT_EQ(phases, (std::set<std::string>{"ray_scene", "hierarchy", "links", "gather", "layers"}));
+    EXPECT_EQ(phases, (std::set<std::string>{"ray_scene", "hierarchy", "direct", "links", "gather", "layers"}));
     ASSERT_GE(snapshots.size(), 2U);
     for (std::size_t i = 0; i < snapshots.size(); ++i) {
         EXPECT_EQ(snapshots[i]->final, i + 1 == snapshots.size());

@@ -96,9 +96,11 @@ TEST_F(Features, SunAndSky) {
     sun.enabled = false;
     add(sun);
     EXPECT_FALSE(get("sun").used);
+    EXPECT_FALSE(get("direct_layer").used);
     sun.enabled = true;
     add(sun);
     EXPECT_TRUE(get("sun").used);
+    EXPECT_TRUE(get("direct_layer").used);
     EXPECT_EQ(get("sun").why, "The directional light 'Sun' shines.");
     add(Light{});
     EXPECT_EQ(get("sun").why, "The directional light 'Sun' shines.") << "a point light is no sun";

@@ -267,6 +267,7 @@ TEST(Layers, VertexBudgetIsKept) {
     const auto build = [&](std::size_t most) {
         settings.max_vertices = most;
         const LightField field{
+            {},
             [](const vec3&, const vec3&) { return DirectSample{}; },
             [&](const vec3& p, const vec3& n) { return gather.irradiance(p, n, {}); },
         };

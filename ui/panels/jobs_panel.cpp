@@ -34,6 +34,9 @@ QString percent_text(double share) {
 QString phase_text(const std::string& phase) {
     static const std::pair<const char*, const char*> kNames[] = {
         {"ray_scene", QT_TRANSLATE_NOOP("JobsPanel", "Preparing rays")},
+        {"charts", QT_TRANSLATE_NOOP("JobsPanel", "Unrolling surfaces")},
+        {"direct", QT_TRANSLATE_NOOP("JobsPanel", "Finding shadows")},
+        {"leaf_gather", QT_TRANSLATE_NOOP("JobsPanel", "Looking closer")},
         {"hierarchy", QT_TRANSLATE_NOOP("JobsPanel", "Dividing surfaces")},
         {"links", QT_TRANSLATE_NOOP("JobsPanel", "Finding what sees what")},
         {"visibility", QT_TRANSLATE_NOOP("JobsPanel", "Tracing visibility")},
