@@ -3,7 +3,9 @@ find_package(benchmark REQUIRED)
 add_executable(engine_bench ${CMAKE_CURRENT_LIST_DIR}/engine_bench.cpp)
 target_link_libraries(engine_bench PRIVATE atrium_engine benchmark::benchmark)
 
-add_executable(accuracy_bench ${CMAKE_CURRENT_LIST_DIR}/accuracy_bench.cpp)
+add_executable(accuracy_bench
+  ${CMAKE_CURRENT_LIST_DIR}/accuracy_bench.cpp ${CMAKE_CURRENT_LIST_DIR}/accuracy_reference.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/accuracy_curve.cpp)
 target_link_libraries(accuracy_bench PRIVATE atrium_engine CLI11::CLI11)
 target_compile_definitions(accuracy_bench PRIVATE
   ATRIUM_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ATRIUM_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")

@@ -149,7 +149,7 @@ void print_tessellation(std::size_t most, double limit) {
     std::vector<Figures> rooms;
     for (std::size_t triangles = 1000; triangles <= most; triangles *= 10) {
         const auto figures =
-            solve_alone([=] { return tessellated_room(triangles); }, SolverSettings::Quality::Draft, 0, limit);
+            solve_alone([=] { return tessellated_room(triangles); }, SolverSettings::Quality::Normal, 0, limit);
         if (!figures || !figures->finished) {
             fmt::print("room of {} triangles: not solved in {:.0f} s\n", triangles, limit);
             break;
@@ -159,7 +159,7 @@ void print_tessellation(std::size_t most, double limit) {
     if (rooms.empty()) {
         return;
     }
-    fmt::print("Draft. In brackets the ratio to the first room.\n\n| |");
+    fmt::print("Normal. In brackets the ratio to the first room.\n\n| |");
     for (const Figures& room : rooms) {
         fmt::print(" {} triangles |", room.triangles);
     }
