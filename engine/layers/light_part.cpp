@@ -35,6 +35,7 @@ bool LightPart::run(double from, double to) {
     std::vector<LightCell> fresh = first_cells();
     double at = from + 0.5 * (to - from);
     bool going_on = sample(from, at);
+    find_floors();
     leave_out_dark_sheets(fresh);
     std::vector<Rough> rough;
     while (going_on && !(fresh.empty() && rough.empty())) {
@@ -48,6 +49,18 @@ bool LightPart::run(double from, double to) {
         look_beside(first_new, rough);
     }
     return going_on;
+}
+
+// A room with a night light beside a sunlit one: what is dark there would not be seen here.
+void LightPart::find_floors() {
+    constexpr float kOfBrightest = 0.2F;
+    floor_.assign(sheets_.sheets().size(), 0.0F);
+    for (const LightNode& n : cells_.nodes) {
+        floor_[n.sheet] = std::max(floor_[n.sheet], luminance(n.irradiance));
+    }
+    for (float& floor : floor_) {
+        floor = std::min(settings_.light_floor, kOfBrightest * floor);
+    }
 }
 
 // Where no sample on a whole sheet is lit there is no edge to look for.
@@ -195,8 +208,8 @@ void LightPart::take(const Request& request) {
 // ---- which cells are rough
 
 // A difference that the samples' own noise explains is no reason to look closer: it would be noise again.
-float LightPart::relative(float difference, float variance, float light) const {
-    return difference > 2.0F * std::sqrt(variance) ? difference / std::max(light, settings_.light_floor) : 0.0F;
+float LightPart::relative(std::uint32_t sheet, float difference, float variance, float light) const {
+    return difference > 2.0F * std::sqrt(variance) ? difference / std::max(light, floor_[sheet]) : 0.0F;
 }
 
 // Error of linear interpolation from a to b, judged by the nodes before and behind them: half the lesser of the two
@@ -216,7 +229,7 @@ float LightPart::bend(const LightCell& c, const LightGuess& a, const LightGuess&
     } else if (before.known || behind.known) {
         least = before.known ? first : second;
     }
-    return relative(0.3F * least, 0.25F * (a.variance + b.variance), light);
+    return relative(c.sheet, 0.3F * least, 0.25F * (a.variance + b.variance), light);
 }
 
 // Whether this part shines at a cell or one beside it: only there can an edge begin at what covers the surface.
@@ -242,7 +255,7 @@ float LightPart::change_at_cover(const LightCell& c, std::uint32_t known, std::u
         return 0.0F;
     }
     const float there = luminance(k.irradiance);
-    return relative(0.3F * std::abs(before.light - there), 0.1F * (before.variance + k.variance),
+    return relative(c.sheet, 0.3F * std::abs(before.light - there), 0.1F * (before.variance + k.variance),
                     std::max(light, before.light));
 }
 
@@ -289,7 +302,7 @@ float LightPart::error(const LightCell& c) const {
             const LightNode& m = cells_.nodes[middle];
             const float there = luminance(m.irradiance);
             worst =
-                std::max(worst, relative(std::abs(there - 0.5F * (a.light + b.light)),
+                std::max(worst, relative(c.sheet, std::abs(there - 0.5F * (a.light + b.light)),
                                          m.variance + 0.25F * (a.variance + b.variance), std::max(light, there + others)));
         }
     }
@@ -302,7 +315,7 @@ float LightPart::error(const LightCell& c) const {
 // How far interpolation in a cell is off what was seen at a place in it (steps from its corner).
 float LightPart::off(const LightCell& c, const LightGuess& seen, float dx, float dy) const {
     const LightGuess guess = cells_.interpolate(c, dx, dy);
-    return guess.known ? relative(std::abs(seen.light - guess.light), seen.variance + guess.variance,
+    return guess.known ? relative(c.sheet, std::abs(seen.light - guess.light), seen.variance + guess.variance,
                                   std::max(seen.light, guess.light) + other_light(c))
                        : 0.0F;
 }

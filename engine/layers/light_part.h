@@ -55,7 +55,8 @@ private:
     bool sample(double from, double to);
     void take(const Request& request);
 
-    [[nodiscard]] float relative(float difference, float variance, float light) const;
+    void find_floors();
+    [[nodiscard]] float relative(std::uint32_t sheet, float difference, float variance, float light) const;
     [[nodiscard]] float bend(const LightCell& cell, const LightGuess& a, const LightGuess& b, const LightNode& start,
                              bool along_u, float light) const;
     [[nodiscard]] bool lit_around(const LightCell& cell) const;
@@ -79,8 +80,9 @@ private:
     const DirectMapSettings& settings_;
     TileBudget& budget_;
     const RunContext& context_;
-    float contrast_;  ///< of this part: error of the interpolation that asks for finer cells
-    unsigned finest_; ///< level below which this part's cells are not divided
+    float contrast_;           ///< of this part: error of the interpolation that asks for finer cells
+    std::vector<float> floor_; ///< lux, per sheet: errors are judged against at least this
+    unsigned finest_;          ///< level below which this part's cells are not divided
     LightCells cells_;
     std::vector<std::size_t> first_probe_; ///< per sheet; a probe per cell of the first level, row by row
     std::vector<Probe> probes_;

@@ -7,26 +7,37 @@ namespace {
 
 template <class Value>
 LeafFlags stand_out(const Hierarchy& h, const std::vector<std::uint32_t>& room, float contrast, const Value& value) {
-    struct Mean {
-        double sum = 0.0;
+    struct Sum {
+        double light = 0.0;
         double area = 0.0;
     };
-    std::unordered_map<std::uint32_t, Mean> mean;
+    // A surface is judged by what the others of its room do: it may be most of what there is, and still stand out.
+    std::unordered_map<std::uint32_t, Sum> rooms;
+    std::unordered_map<std::uint64_t, Sum> surfaces; // by room and surface
     const auto room_of = [&](std::uint32_t i) { return room.empty() ? 0U : room[i]; };
+    const auto surface_of = [&](const Element& e) {
+        return e.kind == Element::Kind::Faces ? h.faces[e.triangle].surface : e.surface;
+    };
+    const auto key_of = [&](std::uint32_t i) { return std::uint64_t(room_of(i)) << 32 | surface_of(h.elements[i]); };
     for (std::uint32_t i = 0; i < h.elements.size(); ++i) {
         const Element& e = h.elements[i];
         if (e.leaf()) {
-            Mean& m = mean[room_of(i)];
-            m.sum += double(e.area) * value(e);
-            m.area += e.area;
+            for (Sum* sum : {&rooms[room_of(i)], &surfaces[key_of(i)]}) {
+                sum->light += double(e.area) * value(e);
+                sum->area += e.area;
+            }
         }
     }
     LeafFlags out(h.elements.size(), 0);
     for (std::uint32_t i = 0; i < h.elements.size(); ++i) {
         const Element& e = h.elements[i];
-        if (e.leaf()) {
-            const Mean& m = mean[room_of(i)];
-            out[i] = double(value(e)) * m.area > double(contrast) * m.sum ? 1 : 0;
+        if (e.leaf() && value(e) > 0.0F) {
+            const Sum& all = rooms[room_of(i)];
+            const Sum& own = surfaces[key_of(i)];
+            const double others = all.area - own.area;
+            // Alone in its room: nothing to stand out from but the rest of itself.
+            const Sum against = others > 1e-6 * all.area ? Sum{std::max(all.light - own.light, 0.0), others} : all;
+            out[i] = double(value(e)) * against.area > double(contrast) * against.light ? 1 : 0;
         }
     }
     return out;

@@ -12,8 +12,8 @@ namespace atrium {
 /// One entry per element of the hierarchy it was made for; only leaves count.
 using LeafFlags = std::vector<std::uint8_t>;
 
-/// Leaves whose own exitance M is more than `contrast` times the mean over all surfaces of their room: lamps, screens, but
-/// not the walls of a furnace, whose light the links carry exactly. `room` = one number per element, equal within a room
+/// Leaves whose own exitance M is more than `contrast` times the mean over the other surfaces of their room: lamps, screens,
+/// but not the walls of a furnace, whose light the links carry exactly. `room` = one number per element, equal within a room
 /// (empty: all is one room).
 LeafFlags named_emitters(const Hierarchy& hierarchy, const std::vector<std::uint32_t>& room, float contrast);
 

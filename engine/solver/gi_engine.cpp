@@ -376,7 +376,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     timer.next("ray_scene");
     context.progress("ray_scene", 0.0);
     s.rays = std::make_unique<RayScene>(scene);
-    s.punctual = std::make_unique<DirectLight>(scene, *s.rays);
+    s.punctual = std::make_unique<DirectLight>(scene, *s.rays, context);
     statistics.triangles = s.rays->triangle_count();
     const QualitySettings quality = quality_settings(options.quality, s.rays->bounds().diagonal(), options.target_error);
     s.field = quality.field;

@@ -25,13 +25,13 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         FieldSettings f;
         f.direct = {tolerance, cut, rays, sun, sky};
         f.reflected.rays = hemisphere;
-        f.reflected.max_rays = 2 * hemisphere;
-        f.reflected.tolerance = tolerance;
-        f.reflected.bright = {2.0F * tolerance, cut, rays, 0, 0};
+        f.reflected.max_rays = 8 * hemisphere;
+        f.reflected.tolerance = 1.5F * tolerance;
+        f.reflected.bright = {2.0F * tolerance, 4 * cut, rays, 0, 0};
         f.cache.spacing = std::clamp(3.0F * std::sqrt(tolerance), 0.25F, 0.7F);
         f.cache.smallest_reach = 3.0F * tolerance * unit;
         f.cache.largest_reach = 1.0F * unit;
-        f.cache.contrast = 4.0F * tolerance;
+        f.cache.contrast = 2.0F * tolerance;
         return f;
     };
     out.charts.tile_edge = 0.32F * unit;
@@ -51,11 +51,12 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         usual_error = 0.10;
         break;
     case SolverSettings::Quality::Normal:
-        set(0.3F, 0.15F, 5e-4F, 8, 0.5F, 0.1F, 0.12F);
+        set(0.3F, 0.15F, 5e-4F, 8, 0.5F, 0.1F, 0.05F);
         out.field = look(0.02F, 192, 64, 64, 96, 128);
+        out.maps.contrast = 0.02F;
         break;
     case SolverSettings::Quality::Fine:
-        set(0.15F, 0.08F, 1e-4F, 16, 0.25F, 0.03F, 0.05F);
+        set(0.15F, 0.08F, 1e-4F, 16, 0.25F, 0.03F, 0.025F);
         out.field = look(0.01F, 400, 192, 128, 256, 512);
         out.maps.first_level = 3;
         out.maps.max_level = 7;

@@ -244,7 +244,7 @@ TEST(DirectLight, SunAndNightLightInOneSolution) {
     add_light(scene, sun, {0, 0, 0}, kDown);
     const double cd = 0.01 * 4.0;
     add_point_light(scene, {2, 2, 2}, cd * 4 * kPiD);
-    const Solved s = solve(scene, Quality::Draft);
+    const Solved s = solve(scene, Quality::Normal);
     ASSERT_TRUE(s.solution);
     EXPECT_NEAR(mean_irradiance(scene, *s.solution, outside) / 1e5, 1.0, 0.01);
     EXPECT_NEAR(luminance(read_surface(scene, *s.solution, {2, 0, 2}, {0, 1, 0}).irradiance) / 0.01, 1.0, 0.01);
@@ -289,7 +289,7 @@ TEST(DirectLight, CarpetsOnTheFloor) {
         const NodeId carpet =
             add_rectangle(scene, "carpet", {2, height, 2}, {0, 1, 0}, {1, 0, 0}, 2, 2, add_material(scene, 0));
         add_point_light(scene, {2, 2, 2}, 1000);
-        const Solved s = solve(scene, Quality::Draft);
+        const Solved s = solve(scene, Quality::Normal);
         ASSERT_TRUE(s.solution);
         for (const auto& layer : s.solution->surfaces) {
             if (layer->node != carpet) {
