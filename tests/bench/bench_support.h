@@ -50,7 +50,7 @@ inline std::optional<LitScene> read_lit_scene(const std::string& file) {
 }
 
 /// Runs `body` in a process of its own, so that its peak memory is its own and no measurement warms up the next. The caller
-/// must not have started threads. Nothing when the process failed.
+/// must not have used the engine: its worker threads would be missing there. Nothing when the process failed.
 template <class T, class F> std::optional<T> in_own_process(F&& body) {
     static_assert(std::is_trivially_copyable_v<T>);
     std::fflush(nullptr); // or the child would print again what is buffered

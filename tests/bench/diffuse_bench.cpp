@@ -31,7 +31,7 @@ int run(Arguments a) {
     const auto wanted = [&](const char* section) {
         return std::find(a.only.begin(), a.only.end(), section) != a.only.end();
     };
-    // What runs threads has a process of its own: this one must have none to divide from.
+    // The engine's threads belong to the process that started them: this one must never use it.
     bool fine = true;
     const auto alone = [&](const std::function<void()>& print) {
         fine = in_own_process<bool>([&] {
