@@ -30,7 +30,7 @@ std::uint32_t nearest_part(const Hierarchy& h, const CellStep& step, const vec2&
 std::size_t Hierarchy::memory_bytes() const {
     return bytes_of(elements) + bytes_of(harmonics) + bytes_of(faces) + bytes_of(sheets) + bytes_of(sheet_triangles) +
            bytes_of(patches) + bytes_of(steps) + bytes_of(cell_parts) + bytes_of(first_triangle) + bytes_of(on_sheet) +
-           bytes_of(top);
+           bytes_of(top) + bytes_of(room);
 }
 
 std::uint32_t Hierarchy::leaf_at(std::uint32_t surface, std::uint32_t triangle, bool back, const vec2& barycentric) const {

@@ -133,6 +133,8 @@ struct Hierarchy {
     std::vector<std::size_t> first_triangle;       ///< per surface: where its triangles begin in the next two
     std::vector<std::uint32_t> on_sheet;           ///< per triangle: index into sheet_triangles or kNone
     std::vector<std::array<std::uint32_t, 2>> top; ///< per triangle, front and back: its Faces or topmost Patch, or kNone
+    std::vector<std::uint32_t> room; ///< per element, leaves only: a number for its room, kNone where it stands alone;
+                                     ///< empty where all is one room or nobody has looked (see mark_rooms())
     HierarchySettings settings;
 
     [[nodiscard]] bool empty() const { return elements.empty(); }

@@ -11,8 +11,9 @@ namespace {
 using Cell = glm::vec<3, std::int32_t>;
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 constexpr std::size_t kGrain = 16;
-constexpr float kWithinReach = 0.2F; // weight of the record that a point needs at least: at its rim it only extrapolates
-constexpr int kMostRounds = 4;       // of looking where interpolation is off
+constexpr float kWithinReach =
+    0.45F; // weight of a record that a point needs at least: records overlap, so that gradients are known
+constexpr int kMostRounds = 4; // of looking where interpolation is off
 
 Cell cell_of(const vec3& p, float size) {
     return {std::int32_t(std::floor(p.x / size)), std::int32_t(std::floor(p.y / size)),

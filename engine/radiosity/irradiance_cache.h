@@ -25,7 +25,7 @@ struct FieldSample {
 /// How densely records lie. Lengths in metres.
 struct CacheSettings {
     float spacing = 0.35F;   ///< reach of a record as a share of the mean distance of what it sees
-    float to_nearest = 0.6F; ///< the same of the nearest that it sees: light changes quickly at the foot of things
+    float to_nearest = 0.9F; ///< the same of the nearest that it sees: light changes quickly at the foot of things
     float smallest_reach = 0.04F;
     float largest_reach = 0.8F;
     float normal_cosine = 0.94F; ///< records whose normal differs more are not used (cosine of about 20 degrees)

@@ -17,23 +17,16 @@ LeafGather::LeafGather(const Hierarchy& h, const RayScene& rays, unsigned rays_p
                        const std::function<bool(const SurfacePoint&)>& covered, const RunContext& context)
     : leaves_(h.leaves()) {
     std::erase_if(leaves_, [&](std::uint32_t leaf) { return leaf < first; });
-    row_sums_.assign(leaves_.size(), 0.0F);
     groups_.resize(leaves_.size());
     const float offset = std::clamp(1e-5F * rays.bounds().diagonal(), 1e-6F, 1e-3F);
-    std::vector<std::vector<Entry>> parts(chunk_count(leaves_.size(), kGrain));
-    std::vector<std::uint32_t> count(leaves_.size(), 0);
-    parallel_chunks(leaves_.size(), kGrain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-        std::vector<Entry>& out = parts[chunk];
+    parallel_chunks(leaves_.size(), kGrain, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
-            const std::size_t before = out.size();
             const auto seed = std::uint32_t(hash64(h.elements[leaves_[i]].path));
-            unsigned shot = 0;
             for (std::uint32_t k = 0; k < rays_per_leaf; ++k) {
                 const SurfacePoint p = sample_point(h, rays, leaves_[i], sobol_owen2(k, 2, seed), false);
                 if (covered(p)) {
                     continue;
                 }
-                ++shot;
                 const vec3 from_centre = p.position - h.elements[leaves_[i]].centre;
                 vec3 t1;
                 vec3 b1;
@@ -59,7 +52,6 @@ LeafGather::LeafGather(const Hierarchy& h, const RayScene& rays, unsigned rays_p
                     }
                     const std::uint32_t leaf = h.leaf_at(hit.surface, hit.triangle, !hit.front, hit.barycentric);
                     if (leaf != Element::kNone) {
-                        out.push_back({leaf, through});
                         brought += h.elements[leaf].radiosity * through;
                     }
                     through *= luminance(rays.straight_through(hit, d));
@@ -69,23 +61,9 @@ LeafGather::LeafGather(const Hierarchy& h, const RayScene& rays, unsigned rays_p
                 group.light2 += luminance(brought) * luminance(brought);
                 group.rays += 1.0F;
             }
-            for (std::size_t j = before; j < out.size(); ++j) {
-                out[j].weight /= float(shot);
-                row_sums_[i] += out[j].weight;
-            }
-            count[i] = std::uint32_t(out.size() - before);
         }
     });
     complete_ = !context.should_stop();
-    first_.assign(leaves_.size() + 1, 0);
-    for (std::size_t i = 0; i < leaves_.size(); ++i) {
-        first_[i + 1] = first_[i] + count[i];
-        row_sums_[i] = std::min(row_sums_[i], 1.0F);
-    }
-    entries_.reserve(first_.back());
-    for (const auto& part : parts) {
-        entries_.insert(entries_.end(), part.begin(), part.end());
-    }
 }
 
 std::size_t LeafGather::split_uneven(Hierarchy& h, const RayScene& rays, float contrast, float floor) const {
@@ -116,41 +94,6 @@ std::size_t LeafGather::split_uneven(Hierarchy& h, const RayScene& rays, float c
         }
     }
     return count;
-}
-
-int LeafGather::solve(Hierarchy& h, double tolerance, int max_sweeps, const RunContext& context) const {
-    std::vector<Rgb> next(leaves_.size());
-    std::vector<Rgb> irradiance(leaves_.size());
-    int sweeps = 0;
-    while (sweeps < max_sweeps && !context.should_stop()) {
-        parallel_chunks(leaves_.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t i = begin; i < end; ++i) {
-                Rgb sum(0.0F);
-                for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) {
-                    sum += h.elements[entries_[k].leaf].radiosity * entries_[k].weight;
-                }
-                const Element& e = h.elements[leaves_[i]];
-                irradiance[i] = sum;
-                next[i] = e.emitted + e.rho * (e.direct + sum);
-            }
-        });
-        ++sweeps;
-        double change = 0.0;
-        double size = 0.0;
-        for (std::size_t i = 0; i < leaves_.size(); ++i) {
-            Element& e = h.elements[leaves_[i]];
-            const Rgb d = next[i] - e.radiosity;
-            change += double(e.area) * glm::dot(d, d);
-            size += double(e.area) * glm::dot(next[i], next[i]);
-            e.radiosity = next[i];
-            e.irradiance = irradiance[i];
-        }
-        if (change <= tolerance * tolerance * size) {
-            break;
-        }
-    }
-    h.pull_radiosity();
-    return sweeps;
 }
 
 } // namespace atrium

@@ -9,8 +9,6 @@
 namespace atrium {
 namespace {
 
-constexpr std::uint32_t kRays = 24;
-
 /// Union-find over elements.
 class Rooms {
 public:
@@ -28,75 +26,156 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
+// A point and a direction spread about its normal by the cosine, the k-th of a leaf's bundle.
+struct LeafRay {
+    SurfacePoint from;
+    vec3 direction;
+};
+LeafRay leaf_ray(const Hierarchy& h, const RayScene& rays, std::uint32_t leaf, std::uint32_t k) {
+    // Streams of their own: with one bundle for all, what it misses would be missed everywhere.
+    const auto seed = std::uint32_t(h.elements[leaf].path);
+    LeafRay out{sample_point(h, rays, leaf, sobol_owen2(k, 2, seed), false), {}};
+    const vec2 u = sobol_owen2(k, 0, seed);
+    vec3 t;
+    vec3 b;
+    make_frame(out.from.normal, t, b);
+    const float r = std::sqrt(u.x);
+    const float angle = 2.0F * kPi * u.y;
+    out.direction = glm::normalize((r * std::cos(angle)) * t + (r * std::sin(angle)) * b +
+                                   std::sqrt(std::max(1.0F - u.x, 1e-6F)) * out.from.normal);
+    return out;
+}
+
+// How far from a surface rays start, metres: clear of its own rounding.
+constexpr float kClear = 1e-4F;
+
+// Share of the light from all round that does not go straight through a leaf.
+float opacity(const Hierarchy& h, const RayScene& rays, std::uint32_t leaf) {
+    const Element& e = h.elements[leaf];
+    bool lets_through = false;
+    const auto look_at = [&](std::uint32_t surface) {
+        const Material& m = rays.material(surface);
+        lets_through = lets_through || m.transmission > 0.0F || m.alpha_mode != Material::Alpha::Opaque;
+    };
+    if (e.kind == Element::Kind::Patch) {
+        look_at(e.surface);
+    } else {
+        for (std::uint32_t f = e.triangle; f < e.triangle + e.face_count; ++f) {
+            look_at(h.faces[f].surface);
+        }
+    }
+    if (!lets_through) {
+        return 1.0F;
+    }
+    constexpr std::uint32_t kRays = 32;
+    double passed = 0.0;
+    for (std::uint32_t k = 0; k < kRays; ++k) {
+        const LeafRay ray = leaf_ray(h, rays, leaf, k);
+        const vec3 in = -ray.direction;
+        const Hit hit = rays.nearest({ray.from.position - in * kClear, in, 2.0F * kClear});
+        passed += hit ? double(luminance(rays.straight_through(hit, in))) : 1.0; // holes of a cut-out are no hits
+    }
+    return float(std::clamp(1.0 - passed / kRays, 0.0, 1.0));
+}
+
 } // namespace
 
 LeafSurroundings look_around(const Hierarchy& h, const RayScene& rays, const std::vector<std::uint32_t>& leaves,
-                             const RunContext& context) {
+                             const LookSettings& settings, const RunContext& context) {
+    constexpr int kMostPanes = 16;
+    constexpr std::size_t kGrain = 32;
     LeafSurroundings out;
-    out.enclosed.assign(leaves.size(), 0);
-    out.dark.assign(leaves.size(), 0);
-    std::vector<std::uint32_t> seen(leaves.size() * kRays, Element::kNone); // leaves met
-    std::vector<std::uint8_t> glass(leaves.size(), 0);                      // light may come from elsewhere
-    parallel_chunks(leaves.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
-        if (context.should_stop()) {
-            return;
-        }
-        for (std::size_t i = begin; i < end; ++i) {
-            bool enclosed = true;
-            for (std::uint32_t k = 0; k < kRays; ++k) {
-                const SurfacePoint p = sample_point(h, rays, leaves[i], sobol_owen2(k, 2, 91U), false);
-                const vec2 u = sobol_owen2(k, 0, 73U);
-                vec3 t;
-                vec3 b;
-                make_frame(p.normal, t, b);
-                const float r = std::sqrt(u.x);
-                const float angle = 2.0F * kPi * u.y;
-                const vec3 d = (r * std::cos(angle)) * t + (r * std::sin(angle)) * b + std::sqrt(1.0F - u.x) * p.normal;
-                const Hit hit = rays.nearest({p.position + p.normal * 1e-4F, glm::normalize(d)});
-                const bool lets_through = hit && (rays.material(hit.surface).transmission > 0.0F ||
-                                                  rays.material(hit.surface).alpha_mode == Material::Alpha::Blend);
-                const bool reflects = hit && (hit.front || rays.surfaces()[hit.surface].back_side);
-                enclosed = enclosed && reflects && rays.material(hit.surface).transmission <= 0.0F;
-                glass[i] = glass[i] != 0 || lets_through ? 1 : 0;
-                seen[i * kRays + k] =
-                    reflects ? h.leaf_at(hit.surface, hit.triangle, !hit.front, hit.barycentric) : Element::kNone;
+    out.rays = settings.rays;
+    out.share.assign(leaves.size(), 0.0F);
+    out.opacity.assign(leaves.size(), 1.0F);
+    out.open.assign(leaves.size(), 1.0F);
+    out.first_seen.assign(leaves.size() + 1, 0);
+    std::vector<std::vector<LeafSurroundings::Seen>> seen(chunk_count(leaves.size(), kGrain));
+    parallel_chunks(leaves.size(), kGrain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
+            out.opacity[i] = opacity(h, rays, leaves[i]);
+            const std::size_t before = seen[chunk].size();
+            double share = 0.0;
+            std::uint32_t shot = 0;
+            for (std::uint32_t k = 0; k < settings.rays; ++k) {
+                const LeafRay ray = leaf_ray(h, rays, leaves[i], k);
+                if (settings.covered && settings.covered(ray.from)) {
+                    continue;
+                }
+                ++shot;
+                vec3 origin = ray.from.position + ray.from.normal * kClear;
+                float left = 1.0F;
+                for (int crossing = 0; crossing < kMostPanes && left > 1e-3F; ++crossing) {
+                    const Hit hit = rays.nearest({origin, ray.direction});
+                    if (!hit) {
+                        break;
+                    }
+                    const std::uint32_t leaf = h.leaf_at(hit.surface, hit.triangle, !hit.front, hit.barycentric);
+                    const float through = left * luminance(rays.straight_through(hit, ray.direction));
+                    if (leaf != Element::kNone) {
+                        share += double(left) - through;
+                        seen[chunk].push_back({leaf, left});
+                        ++out.first_seen[i + 1];
+                    }
+                    left = through;
+                    origin += ray.direction * (hit.t + std::max(1e-5F, 1e-6F * hit.t));
+                }
             }
-            out.enclosed[i] = enclosed ? 1 : 0;
+            for (std::size_t k = before; k < seen[chunk].size(); ++k) {
+                seen[chunk][k].weight /= float(shot);
+            }
+            out.share[i] = shot > 0 ? float(share / shot) : 0.0F;
+            out.open[i] = std::max(float(shot), 0.5F) / float(settings.rays);
         }
     });
-    if (context.should_stop()) {
-        return out;
-    }
-    Rooms rooms(h.elements.size());
-    for (std::size_t i = 0; i < seen.size(); ++i) {
-        if (seen[i] != Element::kNone) {
-            rooms.join(leaves[i / kRays], seen[i]);
-        }
-    }
-    std::vector<std::uint8_t> lit(h.elements.size(), 0);
-    for (std::size_t i = 0; i < leaves.size(); ++i) {
-        const Element& e = h.elements[leaves[i]];
-        if (glass[i] != 0 || max_component(e.emitted + e.direct) > 0.0F) {
-            lit[rooms.find(leaves[i])] = 1;
-        }
+    for (const auto& part : seen) {
+        out.seen.insert(out.seen.end(), part.begin(), part.end());
     }
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-        out.dark[i] = lit[rooms.find(leaves[i])] != 0 ? 0 : 1;
+        out.first_seen[i + 1] += out.first_seen[i];
     }
     return out;
 }
 
-void darken(Hierarchy& h, const std::vector<std::uint32_t>& leaves, const LeafSurroundings& surroundings) {
-    bool any = false;
+void mark_rooms(Hierarchy& h, const std::vector<std::uint32_t>& leaves, const LeafSurroundings& around) {
+    h.room.clear();
+    Rooms rooms(h.elements.size());
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-        if (surroundings.dark[i] != 0) {
-            h.elements[leaves[i]].radiosity = Rgb(0.0F);
-            h.elements[leaves[i]].irradiance = Rgb(0.0F);
-            any = true;
+        for (std::size_t k = around.first_seen[i]; k < around.first_seen[i + 1]; ++k) {
+            rooms.join(leaves[i], around.seen[k].leaf);
         }
     }
-    if (any) {
-        h.pull_radiosity();
+    struct Room {
+        std::uint32_t name;
+        std::size_t leaves = 0;
+        double area = 0.0;
+    };
+    std::vector<Room> found;
+    std::vector<std::uint32_t> index(h.elements.size(), Element::kNone); // of a room's name in found
+    for (const std::uint32_t leaf : leaves) {
+        const std::uint32_t name = rooms.find(leaf);
+        if (index[name] == Element::kNone) {
+            index[name] = std::uint32_t(found.size());
+            found.push_back({name});
+        }
+        ++found[index[name]].leaves;
+        found[index[name]].area += h.elements[leaf].area;
+    }
+    // What sees nothing, such as backs of walls and the ground outside, is no room.
+    std::erase_if(found, [](const Room& room) { return room.leaves < 2; });
+    if (found.size() < 2) {
+        return;
+    }
+    constexpr std::size_t kMostRooms = 64;
+    std::stable_sort(found.begin(), found.end(), [](const Room& a, const Room& b) { return a.area > b.area; });
+    found.resize(std::min(found.size(), kMostRooms));
+    std::fill(index.begin(), index.end(), Element::kNone);
+    for (std::uint32_t i = 0; i < found.size(); ++i) {
+        index[found[i].name] = i;
+    }
+    h.room.assign(h.elements.size(), Element::kNone);
+    for (const std::uint32_t leaf : leaves) {
+        h.room[leaf] = index[rooms.find(leaf)];
     }
 }
 

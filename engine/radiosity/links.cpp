@@ -6,6 +6,8 @@
 #include "engine/radiosity/patch_cells.h"
 
 #include <algorithm>
+#include <queue>
+#include <tuple>
 
 namespace atrium {
 namespace {
@@ -134,6 +136,62 @@ float general_weight(const Hierarchy& h, const RayScene& rays, std::uint32_t ia,
     return float(visible / (kPiD * safe_r2));
 }
 
+/// Flux of each room that has light of its own, and where its elements are. Without light or walls between: one for all.
+class RoomFlux {
+public:
+    explicit RoomFlux(const Hierarchy& h) {
+        std::vector<double> flux(h.room.empty() ? 0 : 1 + *std::max_element(h.room.begin(), h.room.end(), less), 0.0);
+        for (std::size_t i = 0; i < h.elements.size(); ++i) {
+            const Element& e = h.elements[i];
+            if (e.leaf()) {
+                const double sent = double(e.area) * luminance(e.emitted + e.rho * e.direct);
+                all_ += sent;
+                if (!flux.empty() && h.room[i] != Element::kNone) {
+                    flux[h.room[i]] += sent;
+                }
+            }
+        }
+        if (std::count_if(flux.begin(), flux.end(), [](double f) { return f > 0.0; }) < 2) {
+            return;
+        }
+        flux_ = std::move(flux);
+        where_.assign(h.elements.size(), kNowhere);
+        for (std::size_t i = h.elements.size(); i-- > 0;) { // children come after their parent
+            const Element& e = h.elements[i];
+            if (e.leaf()) {
+                where_[i] = h.room[i] != Element::kNone && flux_[h.room[i]] > 0.0 ? h.room[i] : kNowhere;
+            }
+            for (std::uint32_t k = 0; k < e.child_count; ++k) {
+                const std::uint32_t below = where_[e.first_child + k];
+                where_[i] = where_[i] == kNowhere || below == where_[i] ? below : (below == kNowhere ? where_[i] : kSeveral);
+            }
+        }
+    }
+    /// Flux by which a transfer between two elements is judged, lumen.
+    [[nodiscard]] double of_pair(std::uint32_t a, std::uint32_t b) const {
+        const bool one = !where_.empty() && where_[a] == where_[b] && where_[a] != kNowhere && where_[a] != kSeveral;
+        return one ? flux_[where_[a]] : all_;
+    }
+    /// The element reaches over several rooms and may see light of the other.
+    [[nodiscard]] bool reaches_over(std::uint32_t element, std::uint32_t other) const {
+        return !where_.empty() && where_[element] == kSeveral && where_[other] != kNowhere;
+    }
+    /// Parts of an element are new.
+    void inherit(const Hierarchy& h, std::uint32_t parent) {
+        if (!where_.empty()) {
+            where_.resize(h.elements.size(), where_[parent]);
+        }
+    }
+
+private:
+    static constexpr std::uint32_t kNowhere = 0xFFFFFFFFU; // in no room with light
+    static constexpr std::uint32_t kSeveral = 0xFFFFFFFEU;
+    static bool less(std::uint32_t a, std::uint32_t b) { return a + 1 < b + 1; } // kNone comes first
+    double all_ = 0.0;
+    std::vector<double> flux_;
+    std::vector<std::uint32_t> where_; // per element; empty: one room
+};
+
 } // namespace
 
 float projected_area(const Hierarchy& hierarchy, const Element& element, const vec3& d) {
@@ -150,85 +208,64 @@ LinkSet::LinkSet(const Hierarchy& hierarchy) {
 }
 
 std::size_t LinkSet::refine(Hierarchy& h, const RayScene& rays, const RefineSettings& settings, const RunContext& context) {
-    double flux = 0.0;
-    for (const Element& e : h.elements) {
-        if (e.leaf()) {
-            flux += double(e.area) * luminance(e.emitted + e.rho * e.direct);
-        }
-    }
-    const auto threshold = float(flux * settings.flux_threshold);
-
+    RoomFlux rooms(h);
     struct Fresh {
         std::size_t link;
         unsigned rays;
     };
+    // A pair that should be divided; links that were there before keep their weight if the budget ends first.
+    struct Open {
+        float urgency = 0.0F; // uncertain part of the transfer over what is let be
+        std::uint32_t a = 0;
+        std::uint32_t b = 0;
+        float transfer = 0.0F; // over what is let be
+        float weight = -1.0F;  // of an old link
+        bool operator<(const Open& other) const {
+            return std::tie(urgency, other.a, other.b) < std::tie(other.urgency, a, b);
+        }
+    };
     std::vector<Link> kept;
     std::vector<Fresh> fresh;
     kept.reserve(links_.size());
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> open;
-    const auto push_children = [&](std::uint32_t divided, std::uint32_t other) {
-        for (std::uint32_t k = 0; k < h.elements[divided].child_count; ++k) {
-            open.emplace_back(h.elements[divided].first_child + k, other);
+    std::priority_queue<Open> open;
+    const auto divisible = [&](std::uint32_t i) { return !h.elements[i].leaf() || h.can_split(i); };
+    const auto keep = [&](const Open& pair) {
+        if (pair.weight < 0.0F) {
+            const unsigned half = std::max(settings.rays / 2, 1U);
+            fresh.push_back({kept.size(), pair.transfer > 2.0F    ? settings.rays * 4
+                                          : pair.transfer > 0.25F ? settings.rays
+                                                                  : half});
         }
+        kept.push_back({pair.a, pair.b, std::max(pair.weight, 0.0F)});
     };
-    // Tells what becomes of a pair: nothing, a link (true), or its parts pushed on `open`.
-    const auto decide = [&](std::uint32_t ia, std::uint32_t ib, float& transfer) {
+    // Sorts a pair in: nothing to exchange, good as a link, or to be divided.
+    const auto consider = [&](std::uint32_t ia, std::uint32_t ib, float weight) {
         const PairEstimate pair = estimate(h, h.elements[ia], h.elements[ib]);
-        transfer = pair.transfer;
         if (!pair.exchange) {
-            return false;
+            return;
         }
+        const auto threshold = float(rooms.of_pair(ia, ib) * settings.flux_threshold);
         const bool both_patches = h.elements[ia].kind == Kind::Patch && h.elements[ib].kind == Kind::Patch;
         // Uncertain share of the transfer: grows with the solid angle; clusters are described by fewer numbers than patches.
         const float uncertain = std::min(1.0F, (both_patches ? 1.0F : 4.0F) * pair.ratio * pair.ratio + 0.02F);
         const bool meets = pair.overlap && !both_patches;
-        const bool too_coarse = pair.transfer * uncertain > threshold || (meets && pair.transfer > 0.05F * threshold);
-        if (!too_coarse || kept.size() + open.size() >= settings.max_links) {
-            return true;
+        const bool apart = rooms.reaches_over(ia, ib) || rooms.reaches_over(ib, ia); // what is in one room stays in it
+        const bool too_coarse =
+            apart || pair.transfer * uncertain > threshold || (meets && pair.transfer > 0.05F * threshold);
+        const float scale = threshold > 0.0F ? 1.0F / threshold : 0.0F;
+        Open at{pair.transfer * scale * (meets ? 1.0F : uncertain), std::min(ia, ib), std::max(ia, ib),
+                pair.transfer * scale, weight};
+        if (apart) {
+            at.urgency = std::numeric_limits<float>::infinity();
         }
-        const auto divisible = [&](std::uint32_t i) { return !h.elements[i].leaf() || h.can_split(i); };
-        const auto extent = [&](std::uint32_t i) { return h.elements[i].radius; };
-        std::uint32_t first = extent(ia) >= extent(ib) ? ia : ib;
-        std::uint32_t second = first == ia ? ib : ia;
-        if (!divisible(first)) {
-            std::swap(first, second);
-        }
-        if (!divisible(first)) {
-            return true;
-        }
-        if (h.elements[first].leaf()) {
-            const Rgb radiosity = h.elements[first].radiosity;
-            h.split(first, rays);
-            for (std::uint32_t k = 0; k < h.elements[first].child_count; ++k) {
-                h.elements[h.elements[first].first_child + k].radiosity = radiosity;
-            }
-        }
-        push_children(first, second);
-        return false;
-    };
-    const auto drain = [&] {
-        while (!open.empty()) {
-            const auto [ia, ib] = open.back();
-            open.pop_back();
-            float transfer = 0.0F;
-            if (decide(ia, ib, transfer)) {
-                const float strength = threshold > 0.0F ? transfer / threshold : 0.0F;
-                const unsigned count = transfer <= 0.0F   ? std::max(settings.rays / 2, 1U)
-                                       : strength > 2.0F  ? settings.rays * 4
-                                       : strength > 0.25F ? settings.rays
-                                                          : std::max(settings.rays / 2, 1U);
-                fresh.push_back({kept.size(), count});
-                kept.push_back({std::min(ia, ib), std::max(ia, ib), 0.0F});
-            }
+        if (too_coarse && (divisible(ia) || divisible(ib))) {
+            open.push(at);
+        } else {
+            keep(at);
         }
     };
-
     for (const Link& link : links_) {
-        float transfer = 0.0F;
-        if (decide(link.a, link.b, transfer)) {
-            kept.push_back(link);
-        }
-        drain();
+        consider(link.a, link.b, link.weight);
     }
     // Exchange inside an element: opened down to the leaves, which do not light themselves.
     while (!self_pairs_.empty()) {
@@ -241,13 +278,39 @@ std::size_t LinkSet::refine(Hierarchy& h, const RayScene& rays, const RefineSett
         for (std::uint32_t k = 0; k < e.child_count; ++k) {
             self_pairs_.push_back(e.first_child + k);
             for (std::uint32_t l = k + 1; l < e.child_count; ++l) {
-                open.emplace_back(e.first_child + k, e.first_child + l);
+                consider(e.first_child + k, e.first_child + l, -1.0F);
             }
         }
-        drain();
+    }
+    budget_reached_ = false;
+    while (!open.empty()) {
+        const Open pair = open.top();
+        open.pop();
+        std::uint32_t first = h.elements[pair.a].radius >= h.elements[pair.b].radius ? pair.a : pair.b;
+        std::uint32_t second = first == pair.a ? pair.b : pair.a;
+        if (!divisible(first) || (rooms.reaches_over(second, first) && !rooms.reaches_over(first, second))) {
+            std::swap(first, second);
+        }
+        const std::size_t parts = h.elements[first].leaf() ? 4 : h.elements[first].child_count;
+        if (kept.size() + open.size() + parts > settings.max_links) {
+            budget_reached_ = true;
+            keep(pair);
+            continue;
+        }
+        if (h.elements[first].leaf()) {
+            const Rgb radiosity = h.elements[first].radiosity;
+            h.split(first, rays);
+            rooms.inherit(h, first);
+            for (std::uint32_t k = 0; k < h.elements[first].child_count; ++k) {
+                h.elements[h.elements[first].first_child + k].radiosity = radiosity;
+            }
+        }
+        for (std::uint32_t k = 0; k < h.elements[first].child_count; ++k) {
+            consider(h.elements[first].first_child + k, second, -1.0F);
+        }
     }
 
-    parallel_chunks(fresh.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
+    parallel_chunks(settings.rays > 0 ? fresh.size() : 0, 64, [&](std::size_t begin, std::size_t end, std::size_t) {
         if (context.should_stop()) {
             return;
         }

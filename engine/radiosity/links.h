@@ -19,9 +19,9 @@ struct Link {
 
 /// How far refinement goes.
 struct RefineSettings {
-    float flux_threshold = 1e-4F;       ///< share of the scene's emitted flux below which a transfer's error is let be
-    unsigned rays = 8;                  ///< visibility rays of an ordinary link; up to four times as many for strong ones
-    std::size_t max_links = 20'000'000; ///< memory budget: when reached, transfers stay on higher links
+    float flux_threshold = 1e-4F; ///< share of the flux sent out in a room below which a transfer's error is let be
+    unsigned rays = 8; ///< visibility rays of an ordinary link, up to four times as many for strong ones; 0: no weights
+    std::size_t max_links = 20'000'000; ///< memory budget: when reached, the weaker transfers stay on higher links
 };
 
 /// All links of a hierarchy. refine() may be called again after a solution to look closer where light now flows.
@@ -31,16 +31,21 @@ public:
     explicit LinkSet(const Hierarchy& hierarchy);
 
     /// Splits links whose transfer is uncertain by more than the threshold, given present radiosities (elements and links
-    /// change), then finds the weights of new links with visibility rays. Returns the number of links made; stops early
-    /// when the context says so (links stay complete: every pair of leaves is covered once).
+    /// change), the most uncertain first, then finds the weights of new links with visibility rays. Where the hierarchy
+    /// knows several rooms with light of their own (Hierarchy::room), each is refined by its own flux: a cellar lamp is
+    /// not lost beside the sun. Returns the number of links made; stops early when the context says so (links stay
+    /// complete: every pair of leaves is covered once).
     std::size_t refine(Hierarchy& hierarchy, const RayScene& rays, const RefineSettings& settings,
                        const RunContext& context);
 
     [[nodiscard]] const std::vector<Link>& links() const { return links_; }
+    /// The last refine() left transfers on higher links for want of budget.
+    [[nodiscard]] bool budget_reached() const { return budget_reached_; }
     [[nodiscard]] std::size_t memory_bytes() const { return links_.capacity() * sizeof(Link); }
 
 private:
     std::vector<Link> links_;
+    bool budget_reached_ = false;
     std::vector<std::uint32_t> self_pairs_; ///< elements whose inner exchange has not been opened yet
 };
 

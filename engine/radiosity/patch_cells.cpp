@@ -321,6 +321,9 @@ void Hierarchy::split(std::uint32_t index, const RayScene& rays) {
         make_cell(*this, rays, child, part, std::move(found), whole);
         sum += double(child.area);
         elements.push_back(child);
+        if (!room.empty()) {
+            room.push_back(room[index]);
+        }
         step.present = std::uint8_t(step.present | 1U << quadrant);
     }
     steps[elements[index].patch] = step;

@@ -4,6 +4,7 @@
 #include "engine/base/run_context.h"
 #include "engine/radiosity/hierarchy.h"
 #include "engine/radiosity/links.h"
+#include "engine/radiosity/solve_report.h"
 
 #include <cstdint>
 #include <vector>
@@ -43,13 +44,6 @@ private:
     std::vector<float> guard_;    ///< per leaf, on what it receives: the little that symmetric scaling left over
     std::vector<float> row_sums_; ///< per leaf, after scaling
     std::vector<Rgb> gathered_;   ///< per element: irradiance of patches
-};
-
-/// Outcome of solve_radiosity().
-struct SolveReport {
-    int iterations = 0;    ///< applications of the transport
-    double residual = 0.0; ///< |M + rho (D + T B) - B| / |B|, area-weighted 2-norm
-    bool converged = false;
 };
 
 /// Solves B = M + rho (D + T B) on the leaves to `tolerance` and leaves B and E in the hierarchy (pulled to all levels).

@@ -6,11 +6,11 @@
 #include "engine/layers/layer_builder.h"
 #include "engine/radiosity/direct_light.h"
 #include "engine/radiosity/indirect_gather.h"
+#include "engine/radiosity/leaf_exchange.h"
 #include "engine/radiosity/leaf_gather.h"
 #include "engine/radiosity/leaf_surroundings.h"
 #include "engine/radiosity/links.h"
 #include "engine/radiosity/point_gather.h"
-#include "engine/radiosity/transport.h"
 #include "engine/raycast/ray_scene.h"
 #include "engine/raycast/scene_charts.h"
 #include "engine/solver/quality.h"
@@ -126,7 +126,7 @@ struct GiEngine::Impl {
     // Lamps that stand out leave the hierarchy: what they send is gathered straight from them.
     // The side of a lamp that lies flat on something else shines into the gap between them, where its light ends.
     void name_emitters(float contrast, float cover_reach) {
-        LeafFlags named = named_emitters(hierarchy, {}, contrast);
+        LeafFlags named = named_emitters(hierarchy, hierarchy.room, contrast);
         LeafFlags shut(named.size(), 0);
         parallel_chunks(named.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
             constexpr std::uint32_t kPoints = 8;
@@ -167,7 +167,11 @@ struct GiEngine::Impl {
             return;
         }
         std::vector<std::uint32_t> todo = hierarchy.leaves();
-        double flux = 0.0;
+        std::vector<double> flux; // of every room; last: of all
+        const auto flux_around = [&](std::uint32_t leaf) -> double& {
+            const bool alone = hierarchy.room.empty() || hierarchy.room[leaf] == Element::kNone;
+            return alone ? flux.back() : flux[hierarchy.room[leaf]];
+        };
         for (int level = 0; level < 6 && !todo.empty() && !context.should_stop(); ++level) {
             std::vector<float> spread(todo.size());
             parallel_chunks(todo.size(), 32, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -179,9 +183,18 @@ struct GiEngine::Impl {
                 }
             });
             if (level == 0) {
+                std::uint32_t rooms = 0;
+                for (const std::uint32_t room : hierarchy.room) {
+                    rooms = std::max(rooms, room + 1); // kNone is none
+                }
+                flux.assign(rooms + 1, 0.0);
                 for (const std::uint32_t i : todo) {
                     const Element& e = hierarchy.elements[i];
-                    flux += double(e.area) * luminance(e.emitted + e.rho * e.direct);
+                    const double sent = double(e.area) * luminance(e.emitted + e.rho * e.direct);
+                    flux.back() += sent;
+                    if (&flux_around(i) != &flux.back()) {
+                        flux_around(i) += sent;
+                    }
                 }
             }
             std::vector<std::uint32_t> next;
@@ -190,7 +203,8 @@ struct GiEngine::Impl {
                 const double uncertain = double(e.area) * spread[i] * max_component(e.rho);
                 const bool unseen =
                     level < 2 && e.radius > 10.0F * hierarchy.settings.smallest_patch; // few samples miss a sun patch
-                if ((uncertain > 2.0 * quality.refine.flux_threshold * flux || unseen) && hierarchy.can_split(todo[i])) {
+                if ((uncertain > 2.0 * quality.refine.flux_threshold * flux_around(todo[i]) || unseen) &&
+                    hierarchy.can_split(todo[i])) {
                     const std::uint32_t first = std::uint32_t(hierarchy.elements.size());
                     hierarchy.split(todo[i], *rays);
                     for (std::uint32_t c = first; c < hierarchy.elements.size(); ++c) {
@@ -293,15 +307,24 @@ struct GiEngine::Impl {
         return lit;
     }
 
-    void energy_balance(const std::vector<std::uint32_t>& leaves, const std::vector<float>& row_sums,
-                        Statistics& statistics) const {
+    // Of all light that falls on surfaces, that which other surfaces sent; 0 in the dark.
+    [[nodiscard]] double reflected_share() const {
+        const Element& root = hierarchy.elements.front();
+        const double received = luminance(root.irradiance);
+        const double all = received + double(luminance(root.direct));
+        return all > 0.0 ? received / all : 0.0;
+    }
+
+    void energy_balance(const LeafExchange& exchange, Statistics& statistics) const {
         double emitted = 0.0, absorbed = 0.0, leaving = 0.0, direct_in = 0.0;
-        for (std::size_t i = 0; i < leaves.size(); ++i) {
-            const Element& e = hierarchy.elements[leaves[i]];
-            emitted += double(e.area) * luminance(e.emitted);
-            direct_in += double(e.area) * luminance(e.direct);
-            absorbed += double(e.area) * luminance((Rgb(1.0F) - e.rho) * (e.irradiance + e.direct));
-            leaving += double(e.area) * luminance(e.radiosity) * std::max(1.0 - double(row_sums[i]), 0.0);
+        for (std::size_t i = 0; i < exchange.leaves().size(); ++i) {
+            const Element& e = hierarchy.elements[exchange.leaves()[i]];
+            const double area = exchange.area()[i];
+            const float stays = exchange.opacity()[i]; // what goes through glass is counted where it lands
+            emitted += area * luminance(e.emitted);
+            direct_in += area * stays * luminance(e.direct);
+            absorbed += area * luminance(glm::max(Rgb(stays) - e.rho, Rgb(0.0F)) * (e.irradiance + e.direct));
+            leaving += area * luminance(e.radiosity) * std::max(1.0 - double(exchange.row_sums()[i]), 0.0);
         }
         // What sun, sky and lamps bring in counts where it lands; a lamp's light that lands nowhere has escaped at once.
         const double sent = punctual->emitted_flux() + named_flux;
@@ -346,12 +369,13 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         }
         return fail("", "", "stopped before the first picture", "Give it more time, or choose draft quality");
     };
+    double leaf_error = 0.0; // of what is gathered from leaves, relative to all light
     const auto publish = [&](LayerSet layers, bool final) {
         auto solution = std::make_shared<Solution>();
         solution->revision = options.revision;
         solution->final = final;
         solution->mean_radiance = layers.mean_radiance;
-        statistics.error_estimate = layers.error_estimate;
+        statistics.error_estimate = std::hypot(layers.error_estimate, leaf_error);
         statistics.memory.layers = layers.memory_bytes();
         statistics.memory.elements = s.hierarchy.memory_bytes();
         statistics.memory.ray_scene = s.rays->memory_bytes();
@@ -387,6 +411,14 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     hierarchy_settings.seed = options.seed;
     s.hierarchy = build_hierarchy(*s.rays, hierarchy_settings);
     statistics.time.build = seconds_since(start);
+    {
+        const std::vector<std::uint32_t> leaves = s.hierarchy.leaves();
+        const LeafSurroundings around = look_around(s.hierarchy, *s.rays, leaves, {quality.leaf_rays, {}}, context);
+        if (context.should_stop()) {
+            return stopped();
+        }
+        mark_rooms(s.hierarchy, leaves, around);
+    }
     s.name_emitters(quality.emitter_contrast, quality.maps.cover_reach);
 
     for (Feature& feature : statistics.features) {
@@ -444,9 +476,9 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     find_floor();
     const auto layers = [&](const LayerSettings& wanted, const FieldSettings& field, double from, double to) {
         timer.next("layers");
-        s.reflected =
-            std::make_unique<IndirectGather>(s.hierarchy, *s.rays, bright_leaves(s.hierarchy, {}, quality.bright_contrast),
-                                             [&s](const Hit& hit, Rgb& light) { return s.mapped_light(hit, light); });
+        s.reflected = std::make_unique<IndirectGather>(
+            s.hierarchy, *s.rays, bright_leaves(s.hierarchy, s.hierarchy.room, quality.bright_contrast),
+            [&s](const Hit& hit, Rgb& light) { return s.mapped_light(hit, light); });
         CacheSettings cache_settings = field.cache;
         cache_settings.light_floor = light_floor;
         IrradianceCache cache(
@@ -470,25 +502,31 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
 
     LinkSet links(s.hierarchy);
     statistics.converged = s.hierarchy.empty(); // where nothing is, nothing is left to solve
+    const auto covered = [&](const SurfacePoint& p) {
+        return is_covered(*s.rays, p.position, p.normal, quality.maps.cover_reach);
+    };
     const auto solve_light = [&](double at) {
         timer.next("gather");
         context.progress("gather", at);
-        Transport transport(s.hierarchy, links.links());
-        const LeafSurroundings around = look_around(s.hierarchy, *s.rays, transport.leaves(), context);
-        transport.close_rows(around.enclosed);
+        const std::vector<std::uint32_t> leaves = s.hierarchy.leaves();
+        const LeafSurroundings around = look_around(s.hierarchy, *s.rays, leaves, {quality.leaf_rays, covered}, context);
+        if (context.should_stop()) {
+            return;
+        }
+        const LeafExchange exchange(s.hierarchy, leaves, around);
         const SolveReport report =
-            solve_radiosity(s.hierarchy, transport, quality.solver_tolerance, quality.max_iterations, context);
-        darken(s.hierarchy, transport.leaves(), around);
+            solve_radiosity(s.hierarchy, exchange, quality.solver_tolerance, quality.max_iterations, context);
         statistics.iterations += report.iterations;
         statistics.residual = report.residual;
         statistics.converged = report.converged;
         statistics.links = links.links().size();
-        statistics.memory.links = links.memory_bytes() + transport.memory_bytes();
+        statistics.memory.links = links.memory_bytes() + exchange.memory_bytes();
         statistics.elements = s.hierarchy.elements.size();
         statistics.clusters =
             std::uint64_t(std::count_if(s.hierarchy.elements.begin(), s.hierarchy.elements.end(),
                                         [](const Element& e) { return e.kind == Element::Kind::Cluster; }));
-        s.energy_balance(transport.leaves(), transport.row_sums(), statistics);
+        s.energy_balance(exchange, statistics);
+        leaf_error = exchange.error_estimate(s.hierarchy, report) * s.reflected_share();
         find_floor();
         s.solved = true;
     };
@@ -497,8 +535,10 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         context.progress("links", at);
         RefineSettings refine = quality.refine;
         refine.flux_threshold *= coarser;
+        refine.rays = 0; // the leaves' own rays carry the light; links only tell where elements are too large
         const std::size_t old_count = s.hierarchy.elements.size();
         links.refine(s.hierarchy, *s.rays, refine, context);
+        statistics.link_budget_reached = links.budget_reached();
         s.light_new_leaves(old_count, quality, context);
     };
     if (!s.hierarchy.empty()) {
@@ -527,15 +567,9 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
             refine_links(round + 1 < quality.refine_rounds ? 2.0F : 1.0F, 0.45);
             solve_light(0.5);
         }
-        if (quality.refine_rounds == 1 && !context.should_stop()) {
-            solve_light(0.5);
-        }
         if (!context.should_stop()) {
             // Rays know what stands close to a leaf, which links average away.
             timer.next("leaf_gather");
-            const auto covered = [&](const SurfacePoint& p) {
-                return is_covered(*s.rays, p.position, p.normal, quality.maps.cover_reach);
-            };
             std::size_t first_look = 0;                    // elements from here on have not been looked at
             s.hierarchy.settings.smallest_patch *= 0.125F; // links have no use for such small ones
             for (int level = 0; level < quality.leaf_levels && !context.should_stop(); ++level) {
@@ -552,12 +586,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
                     e.radiosity = e.emitted + e.rho * (e.direct + e.irradiance);
                 }
             }
-            const LeafGather gather(s.hierarchy, *s.rays, quality.leaf_rays, 0, covered, context);
-            if (gather.complete()) {
-                statistics.iterations +=
-                    gather.solve(s.hierarchy, 10.0 * quality.solver_tolerance, quality.max_iterations, context);
-                s.energy_balance(gather.leaves(), gather.row_sums(), statistics);
-            }
+            solve_light(0.55);
         }
         if (context.should_stop()) {
             return stopped();

@@ -43,6 +43,7 @@ nlohmann::json to_json(const Statistics& s) {
             {"converged", s.converged},
             {"residual", s.residual},
             {"error_estimate", s.error_estimate},
+            {"link_budget_reached", s.link_budget_reached},
             {"counts", {s.triangles, s.elements, s.clusters, s.links, s.rays}},
             {"memory", {s.memory.elements, s.memory.links, s.memory.layers, s.memory.ray_scene, s.memory.peak_rss}},
             {"energy", {s.energy.emitted, s.energy.absorbed, s.energy.escaped, s.energy.defect}}};
@@ -66,6 +67,7 @@ Statistics statistics_from(const nlohmann::json& j) {
     s.converged = j.at("converged");
     s.residual = j.at("residual");
     s.error_estimate = j.at("error_estimate");
+    s.link_budget_reached = j.value("link_budget_reached", false); // older projects do not say
     const auto& c = j.at("counts");
     s.triangles = c.at(0);
     s.elements = c.at(1);

@@ -28,8 +28,10 @@ struct Statistics {
     std::string quality = "normal";
     int iterations = 0;
     bool converged = false;
-    double residual = 0;       ///< relative, of the linear system on the final links
-    double error_estimate = 0; ///< relative standard error of irradiance, area weighted
+    double residual = 0; ///< relative, of the linear system on the final links
+    double error_estimate =
+        0; ///< relative standard error of irradiance, area weighted: by chance, and by the size of leaves
+    bool link_budget_reached = false; ///< memory ran out for links: some elements are larger than the quality asks for
     std::uint64_t triangles = 0, elements = 0, clusters = 0, links = 0, rays = 0;
     std::uint64_t records = 0; ///< of reflected light that the picture was interpolated from
     std::uint64_t particles_emitted = 0, particles_stored = 0;
