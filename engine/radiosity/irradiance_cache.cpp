@@ -220,12 +220,13 @@ bool IrradianceCache::cover_reach(std::span<const SurfacePoint> points, const Ru
     return true;
 }
 
-void IrradianceCache::fit_gradients(const RunContext& context) {
-    error_.assign(records_.size(), -1.0F);
+void IrradianceCache::fit_gradients(std::size_t first, const RunContext& context) {
+    error_.resize(records_.size(), -1.0F);
     std::vector<std::array<Rgb, 2>> gradient(records_.size());
-    parallel_chunks(records_.size(), 128, [&](std::size_t begin, std::size_t end, std::size_t) {
+    const std::size_t count_new = records_.size() - first;
+    parallel_chunks(count_new, 128, [&](std::size_t begin, std::size_t end, std::size_t) {
         std::array<Use, kMostUsed> used;
-        for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
+        for (std::size_t i = first + begin; i < first + end && !context.should_stop(); ++i) {
             const Record& r = records_[i];
             const Place& at = places_[i];
             gradient[i] = {Rgb(0.0F), Rgb(0.0F)};
@@ -257,12 +258,12 @@ void IrradianceCache::fit_gradients(const RunContext& context) {
             }
         }
     });
-    for (std::size_t i = 0; i < records_.size(); ++i) {
+    for (std::size_t i = first; i < records_.size(); ++i) {
         records_[i].gradient = gradient[i];
     }
-    parallel_chunks(records_.size(), 128, [&](std::size_t begin, std::size_t end, std::size_t) {
+    parallel_chunks(count_new, 128, [&](std::size_t begin, std::size_t end, std::size_t) {
         std::array<Use, kMostUsed> used;
-        for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
+        for (std::size_t i = first + begin; i < first + end && !context.should_stop(); ++i) {
             const Record& r = records_[i];
             const std::size_t count = find(places_[i].position, places_[i].normal, std::uint32_t(i), false, used);
             Rgb sum(0.0F);
@@ -309,7 +310,9 @@ bool IrradianceCache::cover(std::span<const SurfacePoint> points, const RunConte
         if (records_.size() == before) {
             break; // nothing new to judge
         }
-        fit_gradients(context);
+        // A few more records change little for those that are there.
+        const bool many = records_.size() - before > records_.size() / 20;
+        fit_gradients(many ? 0 : before, context);
         if (context.should_stop()) {
             return false;
         }

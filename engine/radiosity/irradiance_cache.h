@@ -78,7 +78,8 @@ private:
     bool add_round(std::span<const SurfacePoint> points, std::vector<std::uint32_t>& open, float separation,
                    const RunContext& context);
     bool cover_reach(std::span<const SurfacePoint> points, const RunContext& context);
-    void fit_gradients(const RunContext& context);
+    /// Gradients and errors of the records from `first` on.
+    void fit_gradients(std::size_t first, const RunContext& context);
     /// Shortens the reach of records that their neighbours do not predict and finds their cells anew; number of them.
     std::size_t shorten();
     [[nodiscard]] int level_of(float reach) const;

@@ -25,12 +25,13 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         FieldSettings f;
         f.direct = {tolerance, cut, rays, sun, sky};
         f.reflected.rays = hemisphere;
-        f.reflected.max_rays = 8 * hemisphere;
-        f.reflected.tolerance = 1.5F * tolerance;
+        f.reflected.max_rays = 4 * hemisphere;
+        f.reflected.tolerance = 2.0F * tolerance;
         f.reflected.bright = {2.0F * tolerance, 4 * cut, rays, 0, 0};
         f.cache.spacing = std::clamp(4.0F * std::sqrt(tolerance), 0.3F, 0.9F);
         f.cache.smallest_reach = 5.0F * tolerance * unit;
         f.cache.largest_reach = 1.0F * unit;
+        f.cache.normal_cosine = 1.0F - 6.0F * tolerance;
         f.cache.contrast = 2.0F * tolerance;
         return f;
     };
