@@ -206,11 +206,15 @@ void print_qualities(const std::vector<std::string>& files, const std::vector<st
                 fmt::print("| {} | | {} | no picture within {:.0f} s |\n", path.stem().string(), quality, limit);
                 continue;
             }
-            const std::string solve = f->finished ? fmt::format("{:.2f}", f->wall) : fmt::format("over {:.0f}", limit);
-            const std::string cpu = f->finished ? fmt::format("{:.2f}", f->cpu) : fmt::format("over {:.0f}", f->cpu);
-            fmt::print("| {} | {} | {} | {:.2f} | {:.2f} | {} | {} | {:.0f} | {} | {} | {} | {:.1f} | {:.2f} % |\n",
-                       path.stem().string(), f->triangles, quality, f->first_wall, f->first_cpu, solve, cpu,
-                       double(f->peak) / kMiB, f->elements, f->links, f->records, double(f->rays) / 1e6, 100.0 * f->error);
+            fmt::print("| {} | {} | {} | {:.2f} | {:.2f} |", path.stem().string(), f->triangles, quality, f->first_wall,
+                       f->first_cpu);
+            if (f->finished) {
+                fmt::print(" {:.2f} | {:.2f} | {:.0f} | {} | {} | {} | {:.1f} | {:.2f} % |\n", f->wall, f->cpu,
+                           double(f->peak) / kMiB, f->elements, f->links, f->records, double(f->rays) / 1e6,
+                           100.0 * f->error);
+            } else { // what else there is belongs to the first picture
+                fmt::print(" over {:.0f} | over {:.0f} | {:.0f} so far |\n", limit, f->cpu, double(f->peak) / kMiB);
+            }
             std::fflush(stdout);
         }
     }
