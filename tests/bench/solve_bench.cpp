@@ -151,7 +151,7 @@ void print_tessellation(std::size_t most, double limit) {
         const auto figures =
             solve_alone([=] { return tessellated_room(triangles); }, SolverSettings::Quality::Normal, 0, limit);
         if (!figures || !figures->finished) {
-            fmt::print("room of {} triangles: not solved in {:.0f} s\n", triangles, limit);
+            fmt::print("room of {} triangles: not solved in {:g} s\n", triangles, limit);
             break;
         }
         rooms.push_back(*figures);
@@ -203,7 +203,7 @@ void print_qualities(const std::vector<std::string>& files, const std::vector<st
         for (const std::string& quality : quality_names) {
             const auto f = solve_alone(from_file(file), qualities().at(quality), 0, limit);
             if (!f || f->triangles == 0) {
-                fmt::print("| {} | | {} | no picture within {:.0f} s |\n", path.stem().string(), quality, limit);
+                fmt::print("| {} | | {} | no picture within {:g} s |\n", path.stem().string(), quality, limit);
                 continue;
             }
             fmt::print("| {} | {} | {} | {:.2f} | {:.2f} |", path.stem().string(), f->triangles, quality, f->first_wall,
@@ -213,7 +213,7 @@ void print_qualities(const std::vector<std::string>& files, const std::vector<st
                            double(f->peak) / kMiB, f->elements, f->links, f->records, double(f->rays) / 1e6,
                            100.0 * f->error);
             } else { // what else there is belongs to the first picture
-                fmt::print(" over {:.0f} | over {:.0f} | {:.0f} so far |\n", limit, f->cpu, double(f->peak) / kMiB);
+                fmt::print(" over {:g} | over {:.2f} | {:.0f} so far |\n", limit, f->cpu, double(f->peak) / kMiB);
             }
             std::fflush(stdout);
         }
