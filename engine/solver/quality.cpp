@@ -23,7 +23,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     };
     const auto look = [unit](float tolerance, unsigned cut, unsigned rays, unsigned sun, unsigned sky, unsigned hemisphere) {
         FieldSettings f;
-        f.direct = {tolerance, cut, rays, sun, sky};
+        f.direct = {0.2F * tolerance, 2 * cut, rays, sun, sky}; // clusters of a lamp err alike: many small errors add up
         f.reflected.rays = hemisphere;
         f.reflected.max_rays = 4 * hemisphere;
         f.reflected.tolerance = 2.0F * tolerance;

@@ -1,0 +1,202 @@
+// Reflected light at points: what stands out, rays over the hemisphere, records and leaves that are too coarse.
+#include "engine/base/parallel.h"
+#include "engine/radiosity/indirect_gather.h"
+#include "engine/radiosity/irradiance_cache.h"
+#include "engine/radiosity/leaf_gather.h"
+#include "engine/radiosity/light_split.h"
+#include "tests/support/rooms.h"
+
+#include <gtest/gtest.h>
+
+namespace atrium {
+namespace {
+
+using test::add_material;
+using test::add_rectangle;
+using test::add_room;
+
+Scene room(float rho, float exitance = 0.0F) {
+    Scene scene;
+    add_room(scene, 4, 2.5F, 3, add_material(scene, rho, exitance));
+    return scene;
+}
+
+TEST(LightSplit, LampsStandOutAndWallsOfAFurnaceDoNot) {
+    Scene lit = room(0.5F);
+    add_rectangle(lit, "panel", {2, 2.49, 1.5}, {0, -1, 0}, {1, 0, 0}, 0.6F, 0.6F, add_material(lit, 0.0F, 3000.0F));
+    const RayScene rays(lit);
+    const Hierarchy h = build_hierarchy(rays, {});
+    const LeafFlags named = named_emitters(h, {}, 4.0F);
+    double flux = 0.0;
+    for (std::size_t i = 0; i < named.size(); ++i) {
+        flux += named[i] != 0 ? double(h.elements[i].area) * h.elements[i].emitted.r : 0.0;
+    }
+    EXPECT_NEAR(flux, 0.36 * 3000.0, 0.1);
+    // The copy shines with the lamp alone.
+    EXPECT_NEAR(only_flagged(h, named, true).elements[0].power, 0.36F * 3000.0F, 0.1F);
+
+    const RayScene furnace(room(0.5F, 100.0F));
+    const Hierarchy all = build_hierarchy(furnace, {});
+    for (const std::uint8_t flag : named_emitters(all, {}, 4.0F)) {
+        EXPECT_EQ(flag, 0) << "no wall stands out from the others";
+    }
+}
+
+TEST(IndirectGather, UniformRadiosityGivesThatIrradiance) {
+    const Scene scene = room(0.5F);
+    const RayScene rays(scene);
+    Hierarchy h = build_hierarchy(rays, {});
+    for (Element& e : h.elements) {
+        e.radiosity = Rgb(1.0F, 2.0F, 3.0F);
+    }
+    h.pull_radiosity();
+    const IndirectGather gather(h, rays, LeafFlags(h.elements.size(), 0));
+    const vec3 corner = vec3(dvec3(0.01, 0, 0.01) - rays.origin());
+    const FieldSample sample = gather.irradiance(corner, {0, 1, 0}, {});
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(sample.irradiance[c], float(c + 1), 1e-4F) << "in a closed room every ray lands";
+    }
+    EXPECT_LT(sample.nearest, 0.2F) << "walls are a centimetre away";
+    EXPECT_LT(sample.distance, 1.0F);
+    EXPECT_LT(sample.variance, 1e-6F);
+}
+
+// A bright panel gathered by name and the same panel found by rays: two estimates of one integral.
+TEST(IndirectGather, WhatIsGatheredByNameIsNotGatheredTwice) {
+    Scene scene = room(0.5F);
+    add_rectangle(scene, "panel", {2, 2.4, 1.5}, {0, -1, 0}, {1, 0, 0}, 1, 1, add_material(scene, 0.5F));
+    const RayScene rays(scene);
+    Hierarchy h = build_hierarchy(rays, {});
+    LeafFlags bright(h.elements.size(), 0);
+    for (std::size_t i = 0; i < h.elements.size(); ++i) {
+        Element& e = h.elements[i];
+        const bool panel = e.leaf() && std::abs(e.area - 1.0F) < 1e-3F;
+        bright[i] = panel ? 1 : 0;
+        e.radiosity = Rgb(panel ? 50.0F : 1.0F);
+    }
+    h.pull_radiosity();
+    IndirectSettings many;
+    many.rays = many.max_rays = 4096;
+    many.bright.tolerance = 1e-4F;
+    const IndirectGather by_rays(h, rays, LeafFlags(h.elements.size(), 0));
+    const IndirectGather by_name(h, rays, bright);
+    const vec3 p = vec3(dvec3(1.2, 0, 1.1) - rays.origin());
+    const float a = by_rays.irradiance(p, {0, 1, 0}, many).irradiance.r;
+    const float b = by_name.irradiance(p, {0, 1, 0}, many).irradiance.r;
+    EXPECT_GT(a, 2.0F);
+    EXPECT_NEAR(b / a, 1.0F, 0.01F);
+}
+
+std::vector<SurfacePoint> floor_points(const RayScene& rays, int n, double x0, double x1) {
+    std::vector<SurfacePoint> points;
+    for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+            const dvec3 p(x0 + (x1 - x0) * (i + 0.5) / n, 0.0, 0.1 + 2.8 * (j + 0.5) / n);
+            points.push_back({vec3(p - rays.origin()), {0, 1, 0}});
+        }
+    }
+    return points;
+}
+
+TEST(IrradianceCache, FewRecordsHoldSmoothLight) {
+    const RayScene rays(room(0.5F));
+    const auto light = [&](const vec3& p) {
+        const double x = double(p.x) + rays.origin().x;
+        return float(100.0 + 30.0 * x + 10.0 * x * x);
+    };
+    IrradianceCache cache(rays,
+                          [&](const vec3& p, const vec3&) {
+                              FieldSample s;
+                              s.irradiance = Rgb(light(p));
+                              s.distance = 1.5F;
+                              s.nearest = 1.0F;
+                              return s;
+                          },
+                          {});
+    const auto points = floor_points(rays, 60, 0.1, 3.9);
+    ASSERT_TRUE(cache.cover(points, RunContext{}));
+    EXPECT_LT(cache.size(), points.size() / 10);
+    for (const SurfacePoint& p : points) {
+        EXPECT_NEAR(cache.at(p.position, p.normal).irradiance.r / light(p.position), 1.0F, 0.02F);
+    }
+}
+
+// A wall between two rooms on one floor: records of the bright side must not be used on the dark one.
+TEST(IrradianceCache, NothingReachesThroughAWall) {
+    Scene scene = room(0.5F);
+    Material both;
+    both.double_sided = true;
+    add_rectangle(scene, "partition", {2, 1.25, 1.5}, {1, 0, 0}, {0, 0, 1}, 3, 2.5F, scene.materials.insert(both));
+    const RayScene rays(scene);
+    const auto bright = [&](const vec3& p) { return double(p.x) + rays.origin().x < 2.0; };
+    IrradianceCache cache(rays,
+                          [&](const vec3& p, const vec3&) {
+                              FieldSample s;
+                              s.irradiance = Rgb(bright(p) ? 1000.0F : 1.0F);
+                              s.distance = s.nearest = 2.0F;
+                              return s;
+                          },
+                          {});
+    const auto points = floor_points(rays, 50, 1.5, 2.5);
+    ASSERT_TRUE(cache.cover(points, RunContext{}));
+    for (const SurfacePoint& p : points) {
+        EXPECT_NEAR(cache.at(p.position, p.normal).irradiance.r, bright(p.position) ? 1000.0F : 1.0F, 1e-2F);
+    }
+}
+
+TEST(IrradianceCache, SameBitsForAnyNumberOfThreadsAndStopsWhenAsked) {
+    const RayScene rays(room(0.5F));
+    const auto sampler = [](const vec3& p, const vec3&) {
+        FieldSample s;
+        s.irradiance = Rgb(1.0F + std::sin(9.0F * p.x) * std::cos(7.0F * p.z));
+        s.distance = s.nearest = 0.5F;
+        return s;
+    };
+    const auto points = floor_points(rays, 60, 0.1, 3.9);
+    std::vector<float> first;
+    for (const unsigned threads : {1U, 2U, 8U}) {
+        set_thread_limit(threads);
+        IrradianceCache cache(rays, sampler, {});
+        ASSERT_TRUE(cache.cover(points, RunContext{}));
+        std::vector<float> values;
+        for (const SurfacePoint& p : points) {
+            values.push_back(cache.at(p.position, p.normal).irradiance.r);
+        }
+        first = first.empty() ? values : first;
+        EXPECT_EQ(values, first) << threads;
+    }
+    set_thread_limit(0);
+    RunContext stopped;
+    stopped.stop.request_stop();
+    IrradianceCache cache(rays, sampler, {});
+    EXPECT_FALSE(cache.cover(points, stopped));
+}
+
+TEST(LeafGather, SplitsLeavesOnWhichReflectedLightIsUneven) {
+    Scene scene = room(0.5F);
+    const RayScene rays(scene);
+    HierarchySettings settings;
+    settings.smallest_patch = 0.3F;
+    Hierarchy h = build_hierarchy(rays, settings);
+    const auto never = [](const SurfacePoint&) { return false; };
+    for (Element& e : h.elements) {
+        e.radiosity = Rgb(1.0F);
+    }
+    h.pull_radiosity();
+    const LeafGather even(h, rays, 128, 0, never, RunContext{});
+    ASSERT_TRUE(even.complete());
+    EXPECT_EQ(even.split_uneven(h, rays, 0.2F, 0.05F), 0U) << "every ray brings the same";
+    // One wall shines: next to it there is more light than far from it.
+    for (Element& e : h.elements) {
+        e.radiosity = Rgb(e.leaf() && e.normal.x > 0.9F ? 10.0F : 0.1F);
+    }
+    h.pull_radiosity();
+    const std::size_t before = h.elements.size();
+    const LeafGather uneven(h, rays, 128, 0, never, RunContext{});
+    ASSERT_TRUE(uneven.complete());
+    EXPECT_GE(uneven.split_uneven(h, rays, 0.2F, 0.05F), 2U) << "floor and ceiling at least";
+    EXPECT_GT(h.elements.size(), before);
+}
+
+} // namespace
+} // namespace atrium
