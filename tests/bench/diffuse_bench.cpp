@@ -26,7 +26,8 @@ int run(Arguments a) {
     using namespace atrium::bench;
     if (a.scenes.empty()) {
         const std::string interiors = ATRIUM_SHARED_DIR "/scenes/interiors/";
-        a.scenes = {a.shipped, interiors + "cornell_box.glb", interiors + "office_b90.glb", interiors + "small_house.glb"};
+        a.scenes = {a.shipped, interiors + "cornell_box.glb", interiors + "office_b90.glb",
+                    interiors + "wooden_staircase.glb"};
     }
     const auto wanted = [&](const char* section) {
         return std::find(a.only.begin(), a.only.end(), section) != a.only.end();
