@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 namespace atrium {
 namespace {
@@ -32,18 +33,21 @@ public:
         stop();
         name_ = name;
         start_ = Clock::now();
+        start_cpu_ = std::clock();
     }
     void stop() {
         if (name_.empty()) {
             return;
         }
         const double seconds = seconds_since(start_);
+        const double cpu = double(std::clock() - start_cpu_) / CLOCKS_PER_SEC;
         auto& phases = statistics_.phases;
         const auto it = std::find_if(phases.begin(), phases.end(), [&](const auto& p) { return p.name == name_; });
         if (it == phases.end()) {
-            phases.push_back({name_, seconds, 0.0});
+            phases.push_back({name_, seconds, 0.0, cpu});
         } else {
             it->seconds += seconds;
+            it->cpu_seconds += cpu;
         }
         name_.clear();
     }
@@ -52,6 +56,7 @@ private:
     Statistics& statistics_;
     std::string name_;
     Clock::time_point start_;
+    std::clock_t start_cpu_ = 0;
 };
 
 } // namespace
@@ -488,9 +493,11 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         LayerSettings settings = wanted;
         settings.light_floor = light_floor;
         const std::vector<std::uint8_t> lit = s.back_lit_surfaces();
-        return build_layers(
+        LayerSet set = build_layers(
             *s.rays, light_field, {s.charts, s.maps.front, s.maps.back}, settings,
             [&](std::uint32_t surface) { return lit[surface] != 0; }, context, from, to);
+        statistics.records = cache.size();
+        return set;
     };
 
     LinkSet links(s.hierarchy);

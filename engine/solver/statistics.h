@@ -14,7 +14,8 @@ struct Statistics {
     struct Phase {
         std::string name;
         double seconds = 0;
-        double share = 0; ///< of time.solve
+        double share = 0;       ///< of time.solve
+        double cpu_seconds = 0; ///< processor time of the whole process in that phase
     };
     std::vector<Feature> features;
     struct {
@@ -32,6 +33,7 @@ struct Statistics {
         0; ///< relative standard error of irradiance, area weighted: by chance, and by the size of leaves
     bool link_budget_reached = false; ///< memory ran out for links: some elements are larger than the quality asks for
     std::uint64_t triangles = 0, elements = 0, clusters = 0, links = 0, rays = 0;
+    std::uint64_t records = 0; ///< of reflected light that the picture was interpolated from
     std::uint64_t particles_emitted = 0, particles_stored = 0;
     struct {
         std::uint64_t elements = 0, links = 0, particles = 0, octree = 0, caustic_textures = 0, layers = 0, ray_scene = 0,

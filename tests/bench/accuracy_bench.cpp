@@ -1,370 +1,58 @@
 // How far the engine's light is from brute force, scene by scene: a table, a line of CSV each, and the worst points.
 #include "engine/base/parallel.h"
-#include "engine/base/rng.h"
-#include "engine/io/scene_file.h"
-#include "engine/raycast/ray_scene.h"
-#include "engine/reference/path_tracer.h"
-#include "engine/reference/reference.h"
-#include "engine/scene/daylight.h"
-#include "engine/solver/gi_engine.h"
+#include "tests/bench/accuracy_curve.h"
+#include "tests/bench/bench_support.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <ctime>
-#include <filesystem>
 #include <fstream>
-#include <map>
 #include <numeric>
-#include <sstream>
 
-namespace atrium {
+namespace atrium::bench {
 namespace {
 
 namespace fs = std::filesystem;
 
 struct Arguments {
     std::vector<std::string> files;
-    std::vector<std::string> qualities{"draft", "normal", "fine"};
-    std::string cache;
+    std::vector<std::string> quality_names{"draft", "normal", "fine"};
+    ReferenceOptions reference;
     std::string out;
     std::string worst;
     std::size_t worst_count = 50;
-    std::size_t points = 2000;
-    double time = 60.0;
-    bool extend = false;
     bool reference_only = false;
+    bool curve = false;
+    double limit = 0.0;
     unsigned threads = 0;
     std::uint32_t seed = 1;
 };
 
-/// A place on a diffuse surface side that light can reach, with what the reference says.
-struct Probe {
-    SensorPlace place;
-    std::string node;
-    Rgb irradiance{0.0F};
-    double standard_error = 0;
+/// A scene with its reference, without the places that nobody sees.
+struct Case {
+    std::string name;
+    Scene scene;
+    Reference reference;
+    std::size_t dropped = 0; ///< places left out
 };
 
-struct Reference {
-    std::vector<Probe> probes;
-    double paths = 0; ///< per point
-    unsigned runs = 0;
-};
-
-// ---- places ----
-
-/// A node's name without the comma that would end its cell.
-std::string csv_name(const Scene& scene, NodeId id) {
-    std::string name = scene.nodes.find(id)->name;
-    std::replace(name.begin(), name.end(), ',', ';');
-    return name;
-}
-
-/// True where the side is neither covered (everything within a millimetre) nor out of reach of all light: of 48 paths of
-/// up to 48 bounces at least one finds some.
-bool light_can_reach(const RayScene& rays, const PathTracer& tracer, const vec3& position, const vec3& normal) {
-    constexpr std::uint32_t kTries = 48;
-    vec3 t;
-    vec3 b;
-    make_frame(normal, t, b);
-    bool covered = true;
-    const PathVertex vertex{clear_of(position, normal), normal};
-    for (std::uint32_t i = 0; i < kTries && covered; ++i) {
-        const vec2 u = sobol_owen2(i, 0, 77U);
-        const float r = std::sqrt(u.x);
-        const float angle = 2.0F * kPi * u.y;
-        const vec3 d = glm::normalize(r * std::cos(angle) * t + r * std::sin(angle) * b + std::sqrt(1.0F - u.x) * normal);
-        const Hit hit = rays.nearest({vertex.origin, d});
-        covered = hit && hit.t < 1e-3F;
+std::optional<Case> read_case(const std::string& file, const ReferenceOptions& options) {
+    auto lit = read_lit_scene(file);
+    if (!lit) {
+        return std::nullopt;
     }
-    for (std::uint32_t i = 0; i < kTries && !covered; ++i) {
-        PathSampler sampler(99, i);
-        if (tracer.finds_light(vertex, sampler, kTries)) {
-            return true;
-        }
+    Case out;
+    out.name = fs::path(file).stem().string();
+    out.scene = std::move(lit->scene);
+    if (!get_reference(file, out.scene, lit->daylight, options, out.reference)) {
+        return std::nullopt;
     }
-    return false;
-}
-
-/// Leaves out places that something lies on within a millimetre, or in whose very plane another surface lies: which of the
-/// two is seen there is left to rounding. Also those where none of the reference's paths found light.
-void drop_covered(const Scene& scene, std::vector<Probe>& probes) {
-    const RayScene rays(scene);
-    constexpr float kNear = 1e-3F;
-    std::erase_if(probes, [&](const Probe& probe) {
-        const vec3 p(probe.place.point - rays.origin());
-        const vec3 n(probe.place.normal);
-        const auto own = [&](const Hit& hit) {
-            return hit && std::abs(hit.t - kNear) < 0.1F * kNear &&
-                   csv_name(scene, rays.surfaces()[hit.surface].node) == probe.node;
-        };
-        // From both sides: of two surfaces in one plane a ray may meet either.
-        const Hit above = rays.nearest({p + n * kNear, -n, 2.0F * kNear});
-        const Hit below = rays.nearest({p - n * kNear, n, 2.0F * kNear});
-        const bool dark = probe.irradiance == Rgb(0.0F);
-        return dark || !own(above) || (below && std::abs(below.t - kNear) < 0.1F * kNear && !own(below));
-    });
-}
-
-/// Area-weighted random places; the same for the same scene and count.
-std::vector<Probe> pick_probes(const Scene& scene, std::size_t count) {
-    const RayScene rays(scene);
-    const PathTracer tracer(scene, rays);
-    struct Side {
-        std::uint32_t surface, triangle;
-        bool back;
-    };
-    std::vector<Side> sides;
-    std::vector<double> cumulative;
-    double total = 0.0;
-    for (std::uint32_t s = 0; s < rays.surfaces().size(); ++s) {
-        if (classify(rays.material(s)) != MaterialKind::Diffuse) {
-            continue;
-        }
-        for (std::uint32_t t = 0; t < rays.surfaces()[s].triangles.size(); ++t) {
-            const auto p = rays.triangle(s, t);
-            const double area = 0.5 * double(glm::length(glm::cross(p[1] - p[0], p[2] - p[0])));
-            for (int side = 0; side < (rays.surfaces()[s].back_side ? 2 : 1); ++side) {
-                total += area;
-                sides.push_back({s, t, side == 1});
-                cumulative.push_back(total);
-            }
-        }
-    }
-    std::vector<Probe> out;
-    for (std::uint32_t i = 0; out.size() < count && i < 20 * count && !sides.empty(); ++i) {
-        const double at = double(sobol_owen(i, 2, 5U)) * total;
-        const auto found = std::upper_bound(cumulative.begin(), cumulative.end(), at) - cumulative.begin();
-        const Side& side = sides[std::min(std::size_t(found), sides.size() - 1)];
-        const vec2 u = sobol_owen2(i, 0, 5U);
-        const float root = std::sqrt(u.x);
-        Hit hit;
-        hit.surface = side.surface;
-        hit.triangle = side.triangle;
-        hit.barycentric = {root * (1.0F - u.y), root * u.y};
-        const auto p = rays.triangle(side.surface, side.triangle);
-        hit.geometric_normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
-        const vec3 position = p[0] + (p[1] - p[0]) * hit.barycentric.x + (p[2] - p[0]) * hit.barycentric.y;
-        const Material& m = rays.material(side.surface);
-        if (m.alpha_mode == Material::Alpha::Mask &&
-            rays.base_color(hit.surface, hit.triangle, hit.barycentric).a < m.alpha_cutoff) {
-            continue;
-        }
-        // Curved things are read with their smooth normal, as they are shown.
-        vec3 normal = rays.shading_normal(hit);
-        normal = glm::dot(normal, hit.geometric_normal) >= 0.75F ? normal : hit.geometric_normal;
-        const float sign = side.back ? -1.0F : 1.0F;
-        if (!light_can_reach(rays, tracer, position, hit.geometric_normal * sign)) {
-            continue;
-        }
-        Probe probe;
-        probe.place = {dvec3(position) + rays.origin(), dvec3(normal * sign)};
-        probe.node = csv_name(scene, rays.surfaces()[side.surface].node);
-        out.push_back(probe);
-    }
+    const std::size_t picked = out.reference.probes.size();
+    drop_covered(out.scene, out.reference.probes);
+    out.dropped = picked - out.reference.probes.size();
     return out;
-}
-
-// ---- the reference and its cache ----
-
-std::uint64_t hash_file(const fs::path& path, std::uint64_t hash) {
-    std::ifstream in(path, std::ios::binary);
-    const std::string bytes(std::istreambuf_iterator<char>(in), {});
-    for (const char c : bytes) { // FNV-1a
-        hash = (hash ^ std::uint8_t(c)) * 0x100000001B3ULL;
-    }
-    return hash;
-}
-
-/// Of the scene file and, for .gltf, of everything that lies beside it.
-std::uint64_t hash_scene(const fs::path& path) {
-    std::vector<fs::path> files{path};
-    if (path.extension() == ".gltf") {
-        for (const auto& entry : fs::directory_iterator(path.parent_path())) {
-            const std::string extension = entry.path().extension().string();
-            if (extension == ".bin" || extension == ".png" || extension == ".jpg") {
-                files.push_back(entry.path());
-            }
-        }
-        std::sort(files.begin() + 1, files.end());
-    }
-    std::uint64_t hash = 0xCBF29CE484222325ULL;
-    for (const fs::path& file : files) {
-        hash = hash_file(file, hash);
-    }
-    return hash;
-}
-
-std::string to_csv(const Reference& reference) {
-    std::string out = "x,y,z,nx,ny,nz,E_r,E_g,E_b,E,stderr,on_surface,node,paths,runs\n";
-    for (const Probe& p : reference.probes) {
-        const dvec3& at = p.place.point;
-        const dvec3& n = p.place.normal;
-        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},1,{},{},{}\n", at.x, at.y, at.z, n.x, n.y, n.z, p.irradiance.r,
-                           p.irradiance.g, p.irradiance.b, luminance(p.irradiance), p.standard_error, p.node,
-                           reference.paths, reference.runs);
-    }
-    return out;
-}
-
-/// Reads a cache; false when it is absent or not one of ours.
-bool read_cache(const fs::path& path, Reference& out) {
-    std::ifstream in(path);
-    std::string line;
-    if (!in || !std::getline(in, line) || line.rfind("x,y,z,nx", 0) != 0) {
-        return false;
-    }
-    while (std::getline(in, line)) {
-        std::vector<std::string> cells;
-        std::stringstream row(line);
-        for (std::string cell; std::getline(row, cell, ',');) {
-            cells.push_back(cell);
-        }
-        if (cells.size() != 15) {
-            return false;
-        }
-        const auto number = [&](std::size_t k) {
-            double value = 0;
-            std::from_chars(cells[k].data(), cells[k].data() + cells[k].size(), value);
-            return value;
-        };
-        Probe p;
-        p.place = {{number(0), number(1), number(2)}, {number(3), number(4), number(5)}};
-        p.irradiance = {float(number(6)), float(number(7)), float(number(8))};
-        p.standard_error = number(10);
-        p.node = cells[12];
-        out.paths = number(13);
-        out.runs = unsigned(number(14));
-        out.probes.push_back(p);
-    }
-    return !out.probes.empty();
-}
-
-/// Adds one more run with a seed of its own. Runs are weighted by their paths, not by what they say of their error.
-bool add_run(const Scene& scene, Reference& reference, const Arguments& a) {
-    std::vector<ReferencePoint> points;
-    for (const Probe& p : reference.probes) {
-        points.push_back({p.place.point, p.place.normal});
-    }
-    ReferenceSettings settings;
-    settings.seed = 1000 + reference.runs;
-    RunContext context;
-    context.deadline = RunContext::Clock::now() +
-                       std::chrono::duration_cast<RunContext::Clock::duration>(std::chrono::duration<double>(a.time));
-    const auto result = reference_irradiance(scene, points, settings, context);
-    if (!result) {
-        fmt::print(stderr, "{}\n", result.error().message());
-        return false;
-    }
-    const auto fresh = double(result->run.paths);
-    const double share = fresh / (fresh + reference.paths);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        Probe& p = reference.probes[i];
-        const ReferenceReading& r = result->points[i];
-        p.irradiance = p.irradiance * float(1.0 - share) + r.irradiance * float(share);
-        p.standard_error = std::hypot(p.standard_error * (1.0 - share), r.standard_error * share);
-    }
-    reference.paths += fresh;
-    ++reference.runs;
-    return true;
-}
-
-bool get_reference(const fs::path& file, const Scene& scene, bool daylight, const Arguments& a, Reference& out) {
-    const fs::path cache = a.cache.empty()
-                               ? fs::path()
-                               : fs::path(a.cache) / fmt::format("{}-{:016x}-{}{}-diffuse.csv", file.stem().string(),
-                                                                 hash_scene(file), a.points, daylight ? "-daylight" : "");
-    const bool known = !cache.empty() && read_cache(cache, out);
-    if (!known) {
-        out = {};
-        out.probes = pick_probes(scene, a.points);
-        if (out.probes.empty()) {
-            fmt::print(stderr, "{}: no diffuse surface that light can reach\n", file.string());
-            return false;
-        }
-    }
-    if (known && !a.extend) {
-        return true;
-    }
-    if (!add_run(scene, out, a)) {
-        return known;
-    }
-    if (!cache.empty()) {
-        const fs::path temporary = cache.string() + ".tmp";
-        std::ofstream(temporary) << to_csv(out);
-        fs::rename(temporary, cache);
-    }
-    return true;
-}
-
-// ---- the comparison ----
-
-struct Row {
-    std::size_t points = 0;
-    std::size_t unread = 0; ///< points at which the solution has no layer: shown black, counted as such
-    double rms = 0;         ///< see header()
-    double rms_spread = 0;  ///< standard error of rms from the choice of points and the reference's noise
-    double bias = 0;
-    double p50 = 0, p95 = 0, p99 = 0;
-    double noise = 0;          ///< root mean square of the reference's relative standard errors
-    double reference_bias = 0; ///< standard error of the reference's mean, relative
-};
-
-/// Per point (E - R) / max(R, 0.05 mean R).
-Row compare(const std::vector<Probe>& probes, const std::vector<SensorReading>& readings, std::vector<double>& relative) {
-    Row row;
-    double mean = 0.0;
-    for (const Probe& p : probes) {
-        mean += luminance(p.irradiance) / double(probes.size());
-    }
-    const double floor = 0.05 * mean;
-    relative.assign(probes.size(), 0.0);
-    std::vector<double> squares;
-    std::vector<double> sizes;
-    double sum = 0.0;
-    double reference_sum = 0.0;
-    double variance = 0.0;
-    double noise2 = 0.0;
-    for (std::size_t i = 0; i < probes.size(); ++i) {
-        row.unread += readings[i].on_surface ? 0 : 1;
-        const double r = luminance(probes[i].irradiance);
-        const double e = luminance(readings[i].irradiance);
-        const double scale = std::max(r, floor);
-        relative[i] = scale > 0.0 ? (e - r) / scale : (e > 0.0 ? 1.0 : 0.0);
-        const double noise = scale > 0.0 ? probes[i].standard_error / scale : 0.0;
-        squares.push_back(relative[i] * relative[i] - noise * noise);
-        sizes.push_back(std::abs(relative[i]));
-        noise2 += noise * noise;
-        variance += probes[i].standard_error * probes[i].standard_error;
-        sum += e;
-        reference_sum += r;
-    }
-    row.points = sizes.size();
-    if (sizes.empty()) {
-        return row;
-    }
-    const auto n = double(sizes.size());
-    const double square = std::accumulate(squares.begin(), squares.end(), 0.0) / n;
-    double spread = 0.0;
-    for (const double s : squares) {
-        spread += (s - square) * (s - square);
-    }
-    row.rms = std::sqrt(std::max(square, 0.0));
-    row.rms_spread = std::sqrt(spread) / n / (2.0 * std::max(row.rms, 1e-3));
-    row.bias = reference_sum > 0.0 ? (sum - reference_sum) / reference_sum : 0.0;
-    row.reference_bias = reference_sum > 0.0 ? std::sqrt(variance) / reference_sum : 0.0;
-    row.noise = std::sqrt(noise2 / n);
-    std::sort(sizes.begin(), sizes.end());
-    const auto percentile = [&](double p) { return sizes[std::min(std::size_t(p * n), sizes.size() - 1)]; };
-    row.p50 = percentile(0.50);
-    row.p95 = percentile(0.95);
-    row.p99 = percentile(0.99);
-    return row;
 }
 
 std::string worst_points(const std::string& scene, const std::string& quality, const std::vector<Probe>& probes,
@@ -391,89 +79,85 @@ const char* header() {
            "'noise' is the reference's rms standard error.\n";
 }
 
-double cpu_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
+void print_reference(const Case& c) {
+    std::vector<double> unused;
+    std::vector<SensorReading> same;
+    for (const Probe& p : c.reference.probes) {
+        same.push_back({p.irradiance, 0.0, true});
+    }
+    fmt::print("{:<24} reference of {} points ({} more are covered), {:.0f} paths each, rms noise {:.2f} %\n", c.name,
+               c.reference.probes.size(), c.dropped, c.reference.paths,
+               100.0 * compare(c.reference.probes, same, unused).noise);
+    std::fflush(stdout);
+}
+
+/// Solves at one quality and prints its line; false when it cannot be solved.
+bool print_row(const Case& c, const std::string& quality, const Arguments& a, std::string& csv, std::string& worst) {
+    GiEngine engine;
+    SolveOptions options;
+    options.quality = qualities().at(quality);
+    options.seed = a.seed;
+    const double before = cpu_seconds();
+    const auto solution = engine.solve(c.scene, options, RunContext{});
+    const double cpu = cpu_seconds() - before;
+    if (!solution) {
+        fmt::print(stderr, "{}: {}\n", c.name, solution.error().message());
+        return false;
+    }
+    std::vector<SensorPlace> places;
+    for (const Probe& p : c.reference.probes) {
+        places.push_back(p.place);
+    }
+    const auto readings = read_surfaces(c.scene, **solution, places);
+    std::vector<double> relative;
+    const Row row = compare(c.reference.probes, readings, relative);
+    const Statistics& s = (*solution)->statistics;
+    fmt::print("{:<24} {:<6} {:>8.2f} {:>8.2f} {:>6.2f}% {:>5.2f}% {:>+6.2f}% {:>6.2f}% {:>6.2f}% {:>6.1f}% {:>6.2f}% "
+               "{:>6} {:>6} {:>6.2f}%\n",
+               c.name, quality, s.time.solve, cpu, 100 * row.rms, 100 * row.rms_spread, 100 * row.bias, 100 * row.p50,
+               100 * row.p95, 100 * row.p99, 100 * s.error_estimate, row.points, row.unread, 100 * row.noise);
+    std::fflush(stdout);
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", c.name, quality, s.time.solve, cpu, row.rms,
+                       row.rms_spread, row.bias, row.p50, row.p95, row.p99, s.error_estimate, row.points, c.dropped,
+                       row.unread, row.noise, row.reference_bias, c.reference.paths);
+    worst += worst_points(c.name, quality, c.reference.probes, readings, relative, a.worst_count);
+    return true;
+}
 
 int run(const Arguments& a) {
     if (a.threads != 0) {
         set_thread_limit(a.threads);
     }
-    const std::map<std::string, SolverSettings::Quality> qualities = {{"draft", SolverSettings::Quality::Draft},
-                                                                      {"normal", SolverSettings::Quality::Normal},
-                                                                      {"fine", SolverSettings::Quality::Fine}};
-    if (!a.cache.empty()) {
-        fs::create_directories(a.cache);
+    if (!a.reference.cache.empty()) {
+        fs::create_directories(a.reference.cache);
     }
     std::string csv =
         "scene,quality,solve_seconds,cpu_seconds,rms,rms_spread,bias,p50,p95,p99,error_estimate,points,covered,unread,"
         "reference_noise,reference_mean_noise,reference_paths\n";
     std::string worst = "scene,quality,x,y,z,nx,ny,nz,node,E,R,stderr,relative\n";
-    fmt::print("{}{:<24} {:<6} {:>8} {:>8} {:>7} {:>6} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6} {:>7}\n", header(), "scene",
-               "qual.", "solve s", "cpu s", "rms", "+-", "bias", "p50", "p95", "p99", "own", "points", "unread", "noise");
-    int status = 0;
+    fmt::print("{}", header());
+    if (a.curve) {
+        csv = curve_csv_header();
+        fmt::print("\n| scene | quality | target | picture | cpu s | wall s | rms | p50 | bias | own estimate |\n"
+                   "|---|---|---|---|---|---|---|---|---|---|\n");
+    } else {
+        fmt::print("{:<24} {:<6} {:>8} {:>8} {:>7} {:>6} {:>7} {:>7} {:>7} {:>7} {:>7} {:>6} {:>6} {:>7}\n", "scene",
+                   "qual.", "solve s", "cpu s", "rms", "+-", "bias", "p50", "p95", "p99", "own", "points", "unread",
+                   "noise");
+    }
+    bool fine = true;
     for (const std::string& file : a.files) {
-        auto loaded = read_scene(file);
-        if (!loaded) {
-            fmt::print(stderr, "{}\n", loaded.error().message());
-            status = 1;
-            continue;
-        }
-        Scene scene = std::move(loaded->scene);
-        const bool daylight = has_no_light(scene);
-        if (daylight && !apply(scene, add_daylight(scene))) {
-            status = 1;
-            continue;
-        }
-        Reference reference;
-        if (!get_reference(file, scene, daylight, a, reference)) {
-            status = 1;
-            continue;
-        }
-        const std::size_t picked = reference.probes.size();
-        drop_covered(scene, reference.probes);
-        const std::size_t dropped = picked - reference.probes.size();
-        const std::string name = fs::path(file).stem().string();
-        std::vector<SensorPlace> places;
-        for (const Probe& p : reference.probes) {
-            places.push_back(p.place);
-        }
-        if (a.reference_only) {
-            std::vector<double> unused;
-            std::vector<SensorReading> same;
-            for (const Probe& p : reference.probes) {
-                same.push_back({p.irradiance, 0.0, true});
+        const std::optional<Case> c = read_case(file, a.reference);
+        if (!c) {
+            fine = false;
+        } else if (a.reference_only) {
+            print_reference(*c);
+        } else if (a.curve) {
+            fine = print_curve(c->name, c->scene, c->reference.probes, a.seed, a.limit, csv) && fine;
+        } else {
+            for (const std::string& quality : a.quality_names) {
+                fine = print_row(*c, quality, a, csv, worst) && fine;
             }
-            fmt::print("{:<24} reference of {} points ({} more are covered), {:.0f} paths each, rms noise {:.2f} %\n", name,
-                       places.size(), dropped, reference.paths, 100.0 * compare(reference.probes, same, unused).noise);
-            std::fflush(stdout);
-            continue;
-        }
-        for (const std::string& quality : a.qualities) {
-            GiEngine engine;
-            SolveOptions options;
-            options.quality = qualities.at(quality);
-            options.seed = a.seed;
-            const double before = cpu_seconds();
-            const auto solution = engine.solve(scene, options, RunContext{});
-            const double cpu = cpu_seconds() - before;
-            if (!solution) {
-                fmt::print(stderr, "{}: {}\n", file, solution.error().message());
-                status = 1;
-                continue;
-            }
-            const auto readings = read_surfaces(scene, **solution, places);
-            std::vector<double> relative;
-            const Row row = compare(reference.probes, readings, relative);
-            const Statistics& s = (*solution)->statistics;
-            fmt::print(
-                "{:<24} {:<6} {:>8.2f} {:>8.2f} {:>6.2f}% {:>5.2f}% {:>+6.2f}% {:>6.2f}% {:>6.2f}% {:>6.1f}% {:>6.2f}% "
-                "{:>6} {:>6} {:>6.2f}%\n",
-                name, quality, s.time.solve, cpu, 100 * row.rms, 100 * row.rms_spread, 100 * row.bias, 100 * row.p50,
-                100 * row.p95, 100 * row.p99, 100 * s.error_estimate, row.points, row.unread, 100 * row.noise);
-            std::fflush(stdout);
-            csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", name, quality, s.time.solve, cpu,
-                               row.rms, row.rms_spread, row.bias, row.p50, row.p95, row.p99, s.error_estimate, row.points,
-                               dropped, row.unread, row.noise, row.reference_bias, reference.paths);
-            worst += worst_points(name, quality, reference.probes, readings, relative, a.worst_count);
         }
     }
     if (!a.out.empty()) {
@@ -482,7 +166,7 @@ int run(const Arguments& a) {
     if (!a.worst.empty()) {
         std::ofstream(a.worst) << worst;
     }
-    return status;
+    return fine ? 0 : 1;
 }
 
 /// Every scene that ships and every shared interior.
@@ -502,21 +186,37 @@ std::vector<std::string> default_scenes() {
     return out;
 }
 
+/// Three that differ: a box, an office full of furniture, sun through a window.
+std::vector<std::string> curve_scenes() {
+    const fs::path interiors = fs::path(ATRIUM_SHARED_DIR) / "scenes/interiors";
+    std::vector<std::string> out = {std::string(ATRIUM_SOURCE_DIR) + "/scenes/sunlit_room/sunlit_room.gltf"};
+    for (const char* name : {"cornell_box.glb", "office_b90.glb"}) {
+        if (fs::exists(interiors / name)) {
+            out.push_back((interiors / name).string());
+        } else {
+            fmt::print("{}: left out, the file is not there\n", (interiors / name).string());
+        }
+    }
+    return out;
+}
+
 } // namespace
-} // namespace atrium
+} // namespace atrium::bench
 
 int main(int argc, char** argv) {
-    atrium::Arguments a;
+    atrium::bench::Arguments a;
     CLI::App app("The engine's light against brute force, at random points of every diffuse surface.");
     app.add_option("FILE", a.files, "Scenes (default: all that ship and all shared interiors)");
-    app.add_option("--quality", a.qualities, "Of draft,normal,fine")
+    app.add_option("--quality", a.quality_names, "Of draft,normal,fine")
         ->delimiter(',')
         ->check(CLI::IsMember({"draft", "normal", "fine"}));
-    app.add_option("--cache", a.cache, "Folder that keeps references, by a hash of the scene's files");
-    app.add_option("--points", a.points, "Points per scene")->check(CLI::Range(1, 1000000));
-    app.add_option("--time", a.time, "Seconds for the reference of a scene that is not in the cache");
-    app.add_flag("--extend", a.extend, "Spend that time on cached references as well, which makes them better");
+    app.add_option("--cache", a.reference.cache, "Folder that keeps references, by a hash of the scene's files");
+    app.add_option("--points", a.reference.points, "Points per scene")->check(CLI::Range(1, 1000000));
+    app.add_option("--time", a.reference.time, "Seconds for the reference of a scene that is not in the cache");
+    app.add_flag("--extend", a.reference.extend, "Spend that time on cached references as well, which makes them better");
     app.add_flag("--reference-only", a.reference_only, "Make references, solve nothing");
+    app.add_flag("--curve", a.curve, "Error against time on a ladder of qualities (default: on three scenes)");
+    app.add_option("--limit", a.limit, "Seconds of wall clock after which a ladder ends, 0 = none");
     app.add_option("-o,--output", a.out, "CSV with one line per scene and quality");
     app.add_option("--worst", a.worst, "CSV of the points with the largest differences");
     app.add_option("--worst-count", a.worst_count, "How many of them per scene and quality");
@@ -524,7 +224,7 @@ int main(int argc, char** argv) {
     app.add_option("--seed", a.seed, "Of the engine");
     CLI11_PARSE(app, argc, argv);
     if (a.files.empty()) {
-        a.files = atrium::default_scenes();
+        a.files = a.curve ? atrium::bench::curve_scenes() : atrium::bench::default_scenes();
     }
-    return atrium::run(a);
+    return atrium::bench::run(a);
 }

@@ -3,7 +3,17 @@ find_package(benchmark REQUIRED)
 add_executable(engine_bench ${CMAKE_CURRENT_LIST_DIR}/engine_bench.cpp)
 target_link_libraries(engine_bench PRIVATE atrium_engine benchmark::benchmark)
 
-add_executable(accuracy_bench ${CMAKE_CURRENT_LIST_DIR}/accuracy_bench.cpp)
+add_executable(accuracy_bench
+  ${CMAKE_CURRENT_LIST_DIR}/accuracy_bench.cpp ${CMAKE_CURRENT_LIST_DIR}/accuracy_reference.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/accuracy_curve.cpp)
 target_link_libraries(accuracy_bench PRIVATE atrium_engine CLI11::CLI11)
 target_compile_definitions(accuracy_bench PRIVATE
+  ATRIUM_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ATRIUM_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
+
+add_executable(diffuse_bench
+  ${CMAKE_CURRENT_LIST_DIR}/diffuse_bench.cpp ${CMAKE_CURRENT_LIST_DIR}/floor_bench.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/solve_bench.cpp ${CMAKE_CURRENT_LIST_DIR}/bare_embree.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/tessellated_room.cpp)
+target_link_libraries(diffuse_bench PRIVATE atrium_engine CLI11::CLI11 embree)
+target_compile_definitions(diffuse_bench PRIVATE
   ATRIUM_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ATRIUM_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
