@@ -59,14 +59,17 @@ void install_signal_handlers() {
     sigaction(SIGTERM, &action, nullptr);
 }
 
+bool interrupted() { return signal_count.load() > 0; }
+
 StopFlag new_stop_flag() {
     static std::vector<std::unique_ptr<StopFlag>> kept;
     kept.push_back(std::make_unique<StopFlag>());
     current_flag.store(kept.back().get());
+    if (interrupted()) { // a signal that came before there was anything to stop
+        kept.back()->request_stop();
+    }
     return *kept.back();
 }
-
-bool interrupted() { return signal_count.load() > 0; }
 
 std::function<void(const Progress&)> progress_reporter(bool asked_for) {
     const bool terminal = isatty(STDERR_FILENO) != 0;

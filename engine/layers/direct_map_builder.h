@@ -21,7 +21,7 @@ using DirectFunction = std::function<DirectSample(const vec3& point, const vec3&
 struct DirectPart {
     DirectFunction light;
     /// From large sources only (sky through windows, panels): no streak is narrower than the first cells, so none is looked
-    /// for between the samples, texels of four times the finest size will do, and twice the error passes unseen.
+    /// for between the samples, and texels of four times the finest size will do.
     bool soft = false;
 };
 

@@ -20,7 +20,7 @@ constexpr std::size_t kGrain = 32;
 LightPart::LightPart(const LightSheets& sheets, const DirectPart& part, const std::vector<LightPart>& before,
                      const DirectMapSettings& settings, TileBudget& budget, const RunContext& context)
     : sheets_(sheets), part_(part), before_(before), settings_(settings), budget_(budget), context_(context),
-      contrast_(part.soft ? 2.0F * settings.contrast : settings.contrast),
+      contrast_(settings.contrast),
       finest_(part.soft ? std::max(settings.first_level, settings.max_level - std::min(settings.max_level, 2U))
                         : settings.max_level),
       cells_(settings.first_level, settings.max_level) {

@@ -26,7 +26,7 @@ bool faces_point(const vec3& on_plane, const vec3& normal, const SurfacePoint& p
     return height > (std::abs(glm::dot(normal, p.normal)) > 0.9F ? unevenness : 0.0F);
 }
 
-constexpr std::uint32_t kMostFaces = 48; // of a group that are looked at singly
+constexpr std::uint32_t kMostFaces = 512; // of a group that are looked at singly
 
 // Faces one by one; of many, evenly chosen ones stand for all.
 Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e, const SurfacePoint& p) {
