@@ -36,8 +36,7 @@ struct SurfaceLayer {
     NodeId node;
     std::uint32_t part = 0;
     std::shared_ptr<const DisplayMesh> mesh; ///< never null
-    std::vector<Rgb> irradiance_front;       ///< lux per vertex: reflected by other surfaces; where the layer was made by a
-                                             ///< reader of old files, direct light as well
+    std::vector<Rgb> irradiance_front;       ///< lux per vertex: reflected by other surfaces
     std::vector<Rgb> irradiance_back;
     std::vector<Rgb> direct_front; ///< lux per vertex: straight from lamps, sun and sky; empty = none on vertices
     std::vector<Rgb> direct_back;

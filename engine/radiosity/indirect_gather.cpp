@@ -11,8 +11,8 @@ namespace {
 constexpr std::uint32_t kSeed = 0x51EDU;
 constexpr std::size_t kMostRays = 4096;
 constexpr int kMostPanes = 16;
-// Stratified directions err less than independent ones; how much less depends on the scene. A third of the variance is a
-// cautious guess: for smooth surroundings it is a tenth.
+// Stratified directions err less than independent ones; how much less depends on the scene. A third of the variance is an
+// assumption, not a measurement.
 constexpr float kStratified = 0.35F;
 
 std::vector<vec3> cosine_directions() {

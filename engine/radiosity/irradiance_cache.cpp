@@ -323,16 +323,4 @@ bool IrradianceCache::cover(std::span<const SurfacePoint> points, const RunConte
     return true;
 }
 
-double IrradianceCache::interpolation_error() const {
-    double sum = 0.0;
-    std::size_t count = 0;
-    for (const float e : error_) {
-        if (e >= 0.0F) {
-            sum += double(e) * e;
-            ++count;
-        }
-    }
-    return count > 0 ? std::sqrt(sum / double(count)) : 0.0;
-}
-
 } // namespace atrium

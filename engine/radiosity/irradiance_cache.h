@@ -46,8 +46,6 @@ public:
     /// Interpolated irradiance with the variance of its records; sampled on the spot where no record is near.
     [[nodiscard]] FieldSample at(const vec3& point, const vec3& normal) const;
     [[nodiscard]] std::size_t size() const { return records_.size(); }
-    /// RMS over records of how far interpolation from their neighbours is off, relative.
-    [[nodiscard]] double interpolation_error() const;
 
 private:
     /// Where a record holds: all that a search reads.
