@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/base/units.h"
+#include "engine/caustics/caustic_texture.h"
 #include "engine/layers/light_map.h"
 #include "engine/scene/scene.h"
 
@@ -29,7 +30,7 @@ struct DisplayMesh {
 };
 
 /// Light on one (node, part). Irradiance at a point = diffuse (interpolated from the vertices) + direct (interpolated from
-/// the vertices, empty = 0, + the light map where the triangle is charted). Radiance seen = emitted + reflectance *
+/// the vertices, empty = 0, + the light map where the triangle is charted) + caustic (vertices and textures alike). Radiance seen = emitted + reflectance *
 /// irradiance / pi, textures applied by the viewer. Back sides have light of their own, or none at all (solids, one-sided
 /// materials): then has_back() is false.
 struct SurfaceLayer {
@@ -42,6 +43,10 @@ struct SurfaceLayer {
     std::vector<Rgb> direct_back;
     std::shared_ptr<const LightMap> direct_map_front; ///< null where no triangle is charted or nothing shines straight on it
     std::shared_ptr<const LightMap> direct_map_back;
+    std::vector<Rgb> caustic_front; ///< lux per vertex: over mirrors and glass, as far as no texture holds it; empty = none
+    std::vector<Rgb> caustic_back;
+    std::vector<std::shared_ptr<const CausticTexture>> caustic_textures_front; ///< added up, any number
+    std::vector<std::shared_ptr<const CausticTexture>> caustic_textures_back;
 
     [[nodiscard]] bool has_back() const { return !irradiance_back.empty(); }
 };
@@ -50,6 +55,7 @@ struct SurfaceLayer {
 struct LightShares {
     bool diffuse = true;
     bool direct = true;
+    bool caustic = true;
     friend bool operator==(const LightShares&, const LightShares&) = default;
 };
 

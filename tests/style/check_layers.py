@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 # Each engine folder may include itself and those before it.
-ENGINE = ["base", "geometry", "scene", "io", "raycast", "radiosity", "particles", "caustics", "layers", "update", "solver",
+ENGINE = ["base", "geometry", "scene", "optics", "io", "raycast", "radiosity", "particles", "caustics", "layers", "update", "solver",
           "view", "reference", "measure", "session", "debug"]
 UI_MAY_SEE = {"base", "scene", "solver", "session", "io", "measure", "view", "debug", "layers"}
 # Header pattern, where it may appear, what to do instead. The first match counts.
