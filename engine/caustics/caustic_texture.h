@@ -49,11 +49,11 @@ struct CausticRecord {
     vec2 extent{0.0F};       ///< of the chart, metres
     std::uint32_t width = 0; ///< of the histogram over the whole chart, texels: the resolution chosen
     std::uint32_t height = 0;
-    std::string why;           ///< of the resolution, for people
-    std::vector<vec4> boxes;   ///< restriction boxes u0, v0, u1, v1 in the chart's [0,1]^2
-    double power_texture = 0;  ///< lumen in textures (luminance)
-    double power_mesh = 0;     ///< lumen on the mesh
-    std::uint64_t bytes = 0;   ///< of the textures
+    std::string why;          ///< of the resolution, for people
+    std::vector<vec4> boxes;  ///< restriction boxes u0, v0, u1, v1 in the chart's [0,1]^2
+    double power_texture = 0; ///< lumen in textures (luminance)
+    double power_mesh = 0;    ///< lumen on the mesh
+    std::uint64_t bytes = 0;  ///< of the textures
     friend bool operator==(const CausticRecord&, const CausticRecord&) = default;
 };
 const char* caustic_decision_name(CausticRecord::Decision decision);

@@ -30,9 +30,9 @@ struct DisplayMesh {
 };
 
 /// Light on one (node, part). Irradiance at a point = diffuse (interpolated from the vertices) + direct (interpolated from
-/// the vertices, empty = 0, + the light map where the triangle is charted) + caustic (vertices and textures alike). Radiance seen = emitted + reflectance *
-/// irradiance / pi, textures applied by the viewer. Back sides have light of their own, or none at all (solids, one-sided
-/// materials): then has_back() is false.
+/// the vertices, empty = 0, + the light map where the triangle is charted) + caustic (vertices and textures alike). Radiance
+/// seen = emitted + reflectance * irradiance / pi, textures applied by the viewer. Back sides have light of their own, or
+/// none at all (solids, one-sided materials): then has_back() is false.
 struct SurfaceLayer {
     NodeId node;
     std::uint32_t part = 0;

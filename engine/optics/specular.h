@@ -5,8 +5,8 @@
 
 namespace atrium {
 
-/// Unpolarised Fresnel reflectance of a dielectric interface, in [0, 1]; `cos_i` >= 0 on the side of relative index 1, `eta` =
-/// index behind over index in front. 1 at total internal reflection.
+/// Unpolarised Fresnel reflectance of a dielectric interface, in [0, 1]; `cos_i` >= 0 on the side of relative index 1, `eta`
+/// = index behind over index in front. 1 at total internal reflection.
 float fresnel_dielectric(float cos_i, float eta);
 
 /// Beer-Lambert transmittance of a solid along `path` metres, as KHR_materials_volume has it: attenuation_color ^ (path /
@@ -35,8 +35,8 @@ struct SpecularPoint {
     bool front = true;    ///< the light comes from the surface's front: it enters a solid
 };
 
-/// Picks one way on for light that arrives along `in` (unit, towards the surface) by three numbers in [0,1): u.x, u.y place it
-/// within the lobe, u.z picks the lobe. What the material scatters diffusely is no part of it, nor what goes straight on
+/// Picks one way on for light that arrives along `in` (unit, towards the surface) by three numbers in [0,1): u.x, u.y place
+/// it within the lobe, u.z picks the lobe. What the material scatters diffusely is no part of it, nor what goes straight on
 /// through thin clear glass (RayScene::straight_through()): of thin clear glass only the reflection is left. Weights carry
 /// radiance backwards and power forwards alike (both ends of a path in air: the squares of the indices cancel). Mean weight
 /// over u <= 1. GGX by visible normals (Heitz 2018), height-correlated Smith; smooth below kMirrorRoughness.

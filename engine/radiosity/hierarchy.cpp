@@ -75,15 +75,18 @@ void Hierarchy::pull_radiosity() {
             Rgb radiosity(0.0F);
             Rgb irradiance(0.0F);
             Rgb direct(0.0F);
+            Rgb caustic(0.0F);
             for (std::uint32_t k = 0; k < e.child_count; ++k) {
                 const Element& child = elements[e.first_child + k];
                 radiosity += child.radiosity * child.area;
                 irradiance += child.irradiance * child.area;
                 direct += child.direct * child.area;
+                caustic += child.caustic * child.area;
             }
             e.radiosity = radiosity / e.area;
             e.irradiance = irradiance / e.area;
             e.direct = direct / e.area;
+            e.caustic = caustic / e.area;
         }
         e.power = e.area * luminance(e.radiosity);
         e.spread = 0.0F;

@@ -50,12 +50,15 @@ struct Element {
     Rgb emitted{0.0F};               ///< mean exitance M
     Rgb direct{0.0F};                ///< mean irradiance of sun, sky, lamps and named
                                      ///< emitters, see light_split.h (leaves)
+    Rgb caustic{0.0F};               ///< mean irradiance of named light that came over mirrors and glass (leaves)
     Rgb irradiance{0.0F};            ///< mean irradiance E from the other elements
     Rgb radiosity{0.0F};             ///< mean B
     float spread = 0.0F;             ///< largest deviation of luminance(B) of a Patch below from this one's
     float power = 0.0F;              ///< area * luminance(B): weight for picking sample points
 
     [[nodiscard]] bool leaf() const { return child_count == 0; }
+    /// What it sends before any light has gone round: M + rho * (direct + caustic).
+    [[nodiscard]] Rgb first_radiosity() const { return emitted + rho * (direct + caustic); }
 };
 
 /// A planar piece of a surface with coordinates of its own, metres from the corner of its rectangle: the ground of a

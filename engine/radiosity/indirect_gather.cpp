@@ -1,6 +1,7 @@
 #include "engine/radiosity/indirect_gather.h"
 
 #include "engine/base/rng.h"
+#include "engine/raycast/light_walk.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +11,6 @@ namespace {
 
 constexpr std::uint32_t kSeed = 0x51EDU;
 constexpr std::size_t kMostRays = 4096;
-constexpr int kMostPanes = 16;
 // Stratified directions err less than independent ones; how much less depends on the scene. A third of the variance is an
 // assumption, not a measurement.
 constexpr float kStratified = 0.35F;
@@ -42,32 +42,41 @@ Hierarchy tree_of(const Hierarchy& solved, const LeafFlags& bright) {
 
 } // namespace
 
-IndirectGather::IndirectGather(const Hierarchy& solved, const RayScene& rays, LeafFlags bright, DirectAtHit direct)
-    : h_(solved), rays_(rays), bright_(std::move(bright)), direct_(std::move(direct)),
-      bright_tree_(tree_of(solved, bright_)), bright_gather_(bright_tree_, rays),
+IndirectGather::IndirectGather(const Hierarchy& solved, const RayScene& rays, LeafFlags bright, DirectAtHit direct,
+                               const Rgb& sky, std::function<bool(const Hit&)> by_image)
+    : h_(solved), rays_(rays), bright_(std::move(bright)), direct_(std::move(direct)), sky_(sky),
+      by_image_(std::move(by_image)), bright_tree_(tree_of(solved, bright_)), bright_gather_(bright_tree_, rays),
       offset_(std::clamp(1e-5F * rays.bounds().diagonal(), 1e-6F, 1e-3F)), directions_(cosine_directions()) {}
 
-Rgb IndirectGather::along(vec3 origin, const vec3& direction, float& distance) const {
+Rgb IndirectGather::along(const vec3& origin, const vec3& direction, std::uint32_t index, float& distance) const {
     distance = std::numeric_limits<float>::infinity();
     Rgb sum(0.0F);
-    Rgb through(1.0F);
-    for (int crossing = 0; crossing < kMostPanes; ++crossing) {
-        const Hit hit = rays_.nearest({origin, direction});
+    LightWay way;
+    way.ray = {origin, direction};
+    way.seed = index;    // the same choices along one direction everywhere: neighbours err alike
+    bool imaged = false; // the way is one that mirror images carry for what stands out
+    for (unsigned met = 0; met < kMostSurfaces; ++met) {
+        const Hit hit = rays_.nearest(way.ray);
         if (!hit) {
-            break;
+            return way.bends > 0 ? sum + way.through * kPi * sky_ : sum; // seen straight it is direct light
         }
-        distance = crossing == 0 ? hit.t : distance;
+        distance = met == 0 ? hit.t : distance;
         const std::uint32_t leaf = h_.leaf_at(hit.surface, hit.triangle, !hit.front, hit.barycentric);
-        if (leaf != Element::kNone && bright_[leaf] == 0) {
+        // What stands out is looked for by name, straight and over flat mirrors.
+        const bool by_name = leaf != Element::kNone && bright_[leaf] != 0 && (way.bends == 0 || imaged);
+        if (leaf != Element::kNone && !by_name) {
             const Element& e = h_.elements[leaf];
             Rgb direct(0.0F);
-            sum += through * (direct_ && direct_(hit, direct) ? e.emitted + e.rho * (direct + e.irradiance) : e.radiosity);
+            sum += way.through *
+                   (direct_ && direct_(hit, direct) ? e.emitted + e.rho * (direct + e.caustic + e.irradiance) : e.radiosity);
         }
-        through *= rays_.straight_through(hit, direction);
-        if (!(max_component(through) > 1e-3F)) {
+        const unsigned bends = way.bends;
+        if (!send_on(rays_, hit, way)) {
             break;
         }
-        origin += direction * (hit.t + std::max(1e-5F, 1e-6F * hit.t));
+        if (way.bends > bends) {
+            imaged = way.bends == 1 && by_image_ && by_image_(hit);
+        }
     }
     return sum;
 }
@@ -99,7 +108,7 @@ FieldSample IndirectGather::irradiance(const vec3& point, const vec3& normal, co
         for (; done < wanted; ++done) {
             const vec3& d = directions_[done];
             float distance = 0.0F;
-            const Rgb radiosity = along(origin, t * d.x + b * d.y + normal * d.z, distance);
+            const Rgb radiosity = along(origin, t * d.x + b * d.y + normal * d.z, done, distance);
             near += 1.0 / std::max(double(distance), 1e-6);
             for (float& least : nearest) {
                 if (distance < least) {

@@ -26,7 +26,10 @@ using DirectAtHit = std::function<bool(const Hit& hit, Rgb& irradiance)>;
 class IndirectGather {
 public:
     /// `bright` flags leaves that are gathered by name and left out of the hemisphere (bright_leaves()).
-    IndirectGather(const Hierarchy& solved, const RayScene& rays, LeafFlags bright, DirectAtHit direct = {});
+    /// `sky` = radiance that rays see which leave the scene over mirrors or through lenses, cd/m2. `by_image` tells of the
+    /// first mirror on a way whether light that stands out is looked for over it by name.
+    IndirectGather(const Hierarchy& solved, const RayScene& rays, LeafFlags bright, DirectAtHit direct = {},
+                   const Rgb& sky = Rgb(0.0F), std::function<bool(const Hit&)> by_image = {});
     IndirectGather(const IndirectGather&) = delete;
     IndirectGather& operator=(const IndirectGather&) = delete;
 
@@ -35,13 +38,16 @@ public:
     [[nodiscard]] FieldSample irradiance(const vec3& point, const vec3& normal, const IndirectSettings& settings) const;
 
 private:
-    /// Radiosity that arrives along a ray, glass in between included; `distance` of the first hit, infinite without one.
-    [[nodiscard]] Rgb along(vec3 origin, const vec3& direction, float& distance) const;
+    /// Radiosity that arrives along the index-th ray, over mirrors and through glass; `distance` of the first hit, infinite
+    /// without one.
+    [[nodiscard]] Rgb along(const vec3& origin, const vec3& direction, std::uint32_t index, float& distance) const;
 
     const Hierarchy& h_;
     const RayScene& rays_;
     LeafFlags bright_;
     DirectAtHit direct_;
+    Rgb sky_;
+    std::function<bool(const Hit&)> by_image_;
     Hierarchy bright_tree_; ///< empty when nothing stands out
     PointGather bright_gather_;
     float offset_ = 1e-4F;         ///< of ray origins from their surface, metres

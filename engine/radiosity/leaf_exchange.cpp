@@ -218,7 +218,7 @@ SolveReport solve_radiosity(Hierarchy& h, const LeafExchange& exchange, double t
     std::vector<Rgb> b(n), s(n), u(n), scratch(n), e(n);
     for (std::size_t i = 0; i < n; ++i) {
         const Element& element = h.elements[leaves[i]];
-        b[i] = element.emitted + element.rho * element.direct;
+        b[i] = element.first_radiosity();
         s[i] = glm::sqrt(element.rho * exchange.area()[i]);
         u[i] = s[i] * element.irradiance;
     }

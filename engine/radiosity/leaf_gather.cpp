@@ -2,6 +2,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/rng.h"
+#include "engine/raycast/light_walk.h"
 
 #include <algorithm>
 
@@ -9,7 +10,6 @@ namespace atrium {
 namespace {
 
 constexpr std::size_t kGrain = 32;
-constexpr int kMostPanes = 16;
 
 } // namespace
 
@@ -43,19 +43,21 @@ LeafGather::LeafGather(const Hierarchy& h, const RayScene& rays, unsigned rays_p
                 const float r = std::sqrt(u.x), angle = 2.0F * kPi * u.y;
                 const vec3 d =
                     (r * std::cos(angle)) * t + (r * std::sin(angle)) * b + std::sqrt(std::max(1.0F - u.x, 0.0F)) * p.normal;
-                vec3 origin = p.position + p.normal * offset;
-                float through = 1.0F;
-                for (int crossing = 0; crossing < kMostPanes && through > 1e-3F; ++crossing) {
-                    const Hit hit = rays.nearest({origin, d});
+                LightWay way;
+                way.ray = {p.position + p.normal * offset, d};
+                way.seed = hash_combine(seed, k);
+                for (unsigned met = 0; met < kMostSurfaces; ++met) {
+                    const Hit hit = rays.nearest(way.ray);
                     if (!hit) {
                         break;
                     }
                     const std::uint32_t leaf = h.leaf_at(hit.surface, hit.triangle, !hit.front, hit.barycentric);
                     if (leaf != Element::kNone) {
-                        brought += h.elements[leaf].radiosity * through;
+                        brought += h.elements[leaf].radiosity * way.through;
                     }
-                    through *= luminance(rays.straight_through(hit, d));
-                    origin += d * (hit.t + std::max(1e-5F, 1e-6F * hit.t));
+                    if (!send_on(rays, hit, way)) {
+                        break;
+                    }
                 }
                 group.light += brought;
                 group.light2 += luminance(brought) * luminance(brought);

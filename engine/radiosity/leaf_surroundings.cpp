@@ -2,6 +2,8 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/rng.h"
+#include "engine/optics/specular.h"
+#include "engine/raycast/light_walk.h"
 
 #include <algorithm>
 #include <numeric>
@@ -49,13 +51,13 @@ LeafRay leaf_ray(const Hierarchy& h, const RayScene& rays, std::uint32_t leaf, s
 // How far from a surface rays start, metres: clear of its own rounding.
 constexpr float kClear = 1e-4F;
 
-// Share of the light from all round that does not go straight through a leaf.
+// Share of the light from all round that neither goes straight through a leaf nor is mirrored or bent by it.
 float opacity(const Hierarchy& h, const RayScene& rays, std::uint32_t leaf) {
     const Element& e = h.elements[leaf];
-    bool lets_through = false;
+    bool sends_on = false;
     const auto look_at = [&](std::uint32_t surface) {
         const Material& m = rays.material(surface);
-        lets_through = lets_through || m.transmission > 0.0F || m.alpha_mode != Material::Alpha::Opaque;
+        sends_on = sends_on || m.transmission > 0.0F || m.alpha_mode != Material::Alpha::Opaque || is_specular(m);
     };
     if (e.kind == Element::Kind::Patch) {
         look_at(e.surface);
@@ -64,16 +66,16 @@ float opacity(const Hierarchy& h, const RayScene& rays, std::uint32_t leaf) {
             look_at(h.faces[f].surface);
         }
     }
-    if (!lets_through) {
+    if (!sends_on) {
         return 1.0F;
     }
     constexpr std::uint32_t kRays = 32;
     double passed = 0.0;
     for (std::uint32_t k = 0; k < kRays; ++k) {
         const LeafRay ray = leaf_ray(h, rays, leaf, k);
-        const vec3 in = -ray.direction;
-        const Hit hit = rays.nearest({ray.from.position - in * kClear, in, 2.0F * kClear});
-        passed += hit ? double(luminance(rays.straight_through(hit, in))) : 1.0; // holes of a cut-out are no hits
+        const vec3 in = -ray.direction; // from outside onto the leaf's own side
+        const Hit hit = rays.nearest({ray.from.position + ray.direction * kClear, in, 2.0F * kClear});
+        passed += hit ? double(onward_share(rays, hit, in)) : 1.0; // holes of a cut-out are no hits
     }
     return float(std::clamp(1.0 - passed / kRays, 0.0, 1.0));
 }
@@ -82,11 +84,11 @@ float opacity(const Hierarchy& h, const RayScene& rays, std::uint32_t leaf) {
 
 LeafSurroundings look_around(const Hierarchy& h, const RayScene& rays, const std::vector<std::uint32_t>& leaves,
                              const LookSettings& settings, const RunContext& context) {
-    constexpr int kMostPanes = 16;
     constexpr std::size_t kGrain = 32;
     LeafSurroundings out;
     out.rays = settings.rays;
     out.share.assign(leaves.size(), 0.0F);
+    out.sky.assign(leaves.size(), 0.0F);
     out.opacity.assign(leaves.size(), 1.0F);
     out.open.assign(leaves.size(), 1.0F);
     out.first_seen.assign(leaves.size() + 1, 0);
@@ -96,6 +98,7 @@ LeafSurroundings look_around(const Hierarchy& h, const RayScene& rays, const std
             out.opacity[i] = opacity(h, rays, leaves[i]);
             const std::size_t before = seen[chunk].size();
             double share = 0.0;
+            double sky = 0.0;
             std::uint32_t shot = 0;
             for (std::uint32_t k = 0; k < settings.rays; ++k) {
                 const LeafRay ray = leaf_ray(h, rays, leaves[i], k);
@@ -103,27 +106,32 @@ LeafSurroundings look_around(const Hierarchy& h, const RayScene& rays, const std
                     continue;
                 }
                 ++shot;
-                vec3 origin = ray.from.position + ray.from.normal * kClear;
-                float left = 1.0F;
-                for (int crossing = 0; crossing < kMostPanes && left > 1e-3F; ++crossing) {
-                    const Hit hit = rays.nearest({origin, ray.direction});
+                LightWay way;
+                way.ray = {ray.from.position + ray.from.normal * kClear, ray.direction};
+                way.seed = hash_combine(h.elements[leaves[i]].path, k);
+                for (unsigned met = 0; met < kMostSurfaces; ++met) {
+                    const Hit hit = rays.nearest(way.ray);
                     if (!hit) {
+                        sky += way.bends > 0 ? double(luminance(way.through)) : 0.0;
                         break;
                     }
                     const std::uint32_t leaf = h.leaf_at(hit.surface, hit.triangle, !hit.front, hit.barycentric);
-                    const float through = left * luminance(rays.straight_through(hit, ray.direction));
+                    const float arrived = luminance(way.through);
+                    const float onward = onward_share(rays, hit, way.ray.direction);
                     if (leaf != Element::kNone) {
-                        share += double(left) - through;
-                        seen[chunk].push_back({leaf, left});
+                        share += double(arrived) * (1.0 - onward);
+                        seen[chunk].push_back({leaf, arrived});
                         ++out.first_seen[i + 1];
                     }
-                    left = through;
-                    origin += ray.direction * (hit.t + std::max(1e-5F, 1e-6F * hit.t));
+                    if (!(onward > 0.0F) || !send_on(rays, hit, way)) {
+                        break;
+                    }
                 }
             }
             for (std::size_t k = before; k < seen[chunk].size(); ++k) {
                 seen[chunk][k].weight /= float(shot);
             }
+            out.sky[i] = shot > 0 ? float(sky / shot) : 0.0F;
             out.share[i] = shot > 0 ? float(share / shot) : 0.0F;
             out.open[i] = std::max(float(shot), 0.5F) / float(settings.rays);
         }

@@ -19,10 +19,10 @@ struct LookSettings {
 
 /// One entry per leaf, in the order of the list that was asked for.
 struct LeafSurroundings {
-    /// Leaf at the end of a ray, or behind glass on its way.
+    /// Leaf at the end of a ray, or met on its way over mirrors and through glass.
     struct Seen {
         std::uint32_t leaf; ///< element
-        float weight;       ///< of that ray among the leaf's, less what glass took
+        float weight;       ///< of that ray among the leaf's, less what mirrors and glass took
     };
     std::uint32_t rays = 0; ///< per leaf
     std::vector<Seen> seen;
@@ -31,11 +31,13 @@ struct LeafSurroundings {
     /// that are no part of the hierarchy. Exactly 1 where no ray of the bundle does. Its standard error is at most about
     /// 0.2 / sqrt(rays), and its mean over many leaves is right.
     std::vector<float> share;
-    std::vector<float> opacity; ///< share of the light from all round that does not go straight through the leaf
+    std::vector<float> opacity; ///< share of the light from all round that goes on neither straight nor over a mirror
+    std::vector<float> sky;     ///< share of the rays that end in the sky over a mirror or through a lens
     std::vector<float> open;    ///< share of the leaf's area that is not covered; never quite 0
 };
 
-/// Shoots a bundle of rays from every leaf, on through glass. `leaves` are the hierarchy's leaves, all of them.
+/// Shoots a bundle of rays from every leaf, on over mirrors and through glass. `leaves` are the hierarchy's leaves, all of
+/// them.
 LeafSurroundings look_around(const Hierarchy& hierarchy, const RayScene& rays, const std::vector<std::uint32_t>& leaves,
                              const LookSettings& settings, const RunContext& context);
 

@@ -313,6 +313,7 @@ void Hierarchy::split(std::uint32_t index, const RayScene& rays) {
         child.rho = parent.rho;
         child.emitted = parent.emitted;
         child.direct = parent.direct;
+        child.caustic = parent.caustic;
         child.irradiance = parent.irradiance;
         child.radiosity = parent.radiosity;
         PatchCell part;

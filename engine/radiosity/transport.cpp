@@ -160,7 +160,7 @@ SolveReport solve_radiosity(Hierarchy& h, Transport& transport, double tolerance
     std::vector<Rgb> e(n); // irradiance scratch
     for (std::size_t i = 0; i < n; ++i) {
         const Element& element = h.elements[leaves[i]];
-        b[i] = element.emitted + element.rho * element.direct;
+        b[i] = element.first_radiosity();
         x[i] = element.radiosity;
     }
     // All three channels are one vector: they share the operator, and one step length keeps the sums few.

@@ -2,8 +2,10 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/rng.h"
+#include "engine/layers/caustic_layer.h"
 #include "engine/layers/covered_points.h"
 #include "engine/layers/layer_builder.h"
+#include "engine/particles/particle_map.h"
 #include "engine/radiosity/direct_light.h"
 #include "engine/radiosity/indirect_gather.h"
 #include "engine/radiosity/leaf_exchange.h"
@@ -71,6 +73,9 @@ struct GiEngine::Impl {
     std::unique_ptr<PointGather> lamps;  ///< named emitters alone
     std::unique_ptr<PointGather> direct; ///< named emitters and `punctual` together
     std::unique_ptr<IndirectGather> reflected;
+    std::unique_ptr<SpecularTargets> targets; ///< null where nothing is specular or no light stands out
+    std::unique_ptr<ParticleMap> particles;   ///< null where there are no targets
+    CausticLight caustics;
     FieldSettings field;
     double named_flux = 0.0; ///< of the named emitters, lumen
     double shut_flux = 0.0;  ///< of emitters' sides that lie on something: absorbed where they are
@@ -289,10 +294,40 @@ struct GiEngine::Impl {
         });
     }
 
+    // Particles over mirrors and through glass, where there are both such things and light that stands out.
+    bool trace_particles(std::uint32_t count, std::uint32_t seed, const RunContext& context) {
+        particles.reset();
+        caustics = {};
+        if (!targets) {
+            return true;
+        }
+        ParticleSettings settings;
+        settings.particles = count;
+        settings.seed = seed;
+        particles = std::make_unique<ParticleMap>(*rays, *targets, *punctual, emitters, CarriedByImage{}, settings, context);
+        return particles->complete();
+    }
+
+    // What particles brought joins the light of the leaves that they landed on.
+    void light_leaves_by_particles() {
+        if (!particles) {
+            return;
+        }
+        for (Element& e : hierarchy.elements) {
+            e.caustic = Rgb(0.0F);
+        }
+        for (const Landing& l : particles->landings()) {
+            const std::uint32_t leaf = hierarchy.leaf_at(l.surface, l.triangle, l.back, l.barycentric);
+            if (leaf != Element::kNone) {
+                hierarchy.elements[leaf].caustic += particles->power(l) / hierarchy.elements[leaf].area;
+            }
+        }
+    }
+
     std::vector<std::uint8_t> back_lit_surfaces() const {
         std::vector<std::uint8_t> lit(rays->surfaces().size(), 0);
         for (const Element& e : hierarchy.elements) {
-            if (e.leaf() && max_component(e.direct + e.irradiance) > 0.0F) {
+            if (e.leaf() && max_component(e.direct + e.caustic + e.irradiance) > 0.0F) {
                 if (e.kind == Element::Kind::Patch && e.back) {
                     lit[e.surface] = 1;
                 } else if (e.kind == Element::Kind::Faces) {
@@ -311,7 +346,7 @@ struct GiEngine::Impl {
     [[nodiscard]] double reflected_share() const {
         const Element& root = hierarchy.elements.front();
         const double received = luminance(root.irradiance);
-        const double all = received + double(luminance(root.direct));
+        const double all = received + double(luminance(root.direct + root.caustic));
         return all > 0.0 ? received / all : 0.0;
     }
 
@@ -323,7 +358,10 @@ struct GiEngine::Impl {
             const float stays = exchange.opacity()[i]; // what goes through glass is counted where it lands
             emitted += area * luminance(e.emitted);
             direct_in += area * stays * luminance(e.direct);
+            // Particles tell for themselves what of their light went on.
+            direct_in += area * luminance(e.caustic);
             absorbed += area * luminance(glm::max(Rgb(stays) - e.rho, Rgb(0.0F)) * (e.irradiance + e.direct));
+            absorbed += area * luminance((Rgb(1.0F) - e.rho) * e.caustic);
             leaving += area * luminance(e.radiosity) * std::max(1.0 - double(exchange.row_sums()[i]), 0.0);
         }
         // What sun, sky and lamps bring in counts where it lands; a lamp's light that lands nowhere has escaped at once.
@@ -377,6 +415,10 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         solution->mean_radiance = layers.mean_radiance;
         statistics.error_estimate = std::hypot(layers.error_estimate, leaf_error);
         statistics.memory.layers = layers.memory_bytes();
+        statistics.memory.caustic_textures = s.caustics.memory_bytes();
+        statistics.memory.particles = s.particles ? s.particles->memory_bytes() : 0;
+        statistics.particles_emitted = s.particles ? s.particles->emitted() : 0;
+        statistics.particles_stored = s.particles ? s.particles->landings().size() : 0;
         statistics.memory.elements = s.hierarchy.memory_bytes();
         statistics.memory.ray_scene = s.rays->memory_bytes();
         statistics.memory.peak_rss = peak_resident_bytes();
@@ -402,7 +444,12 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     s.rays = std::make_unique<RayScene>(scene);
     s.punctual = std::make_unique<DirectLight>(scene, *s.rays, context);
     statistics.triangles = s.rays->triangle_count();
-    const QualitySettings quality = quality_settings(options.quality, s.rays->bounds().diagonal(), options.target_error);
+    QualitySettings quality = quality_settings(options.quality, s.rays->bounds().diagonal(), options.target_error);
+    quality.caustics.paper = options.paper_mode;
+    statistics.mode = options.paper_mode ? "paper" : "default";
+    if (options.particles > 0) {
+        quality.particles = options.particles;
+    }
     s.field = quality.field;
 
     timer.next("hierarchy");
@@ -425,6 +472,16 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         if (feature.name == "direct_layer" && feature.used && s.nothing_direct()) {
             feature.used = false;
             feature.why = "No source stands out from what the other surfaces of its room emit: the links carry all light.";
+        }
+    }
+    if (!s.nothing_direct()) {
+        timer.next("particles");
+        s.targets = std::make_unique<SpecularTargets>(*s.rays);
+        if (s.targets->empty()) {
+            s.targets.reset();
+        }
+        if (!s.trace_particles(quality.particles / 16, options.seed, context)) {
+            return stopped();
         }
     }
     float light_floor = s.guess_floor(quality);
@@ -454,8 +511,9 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     }
     timer.next("hierarchy");
     s.light_leaves(quality, context);
+    s.light_leaves_by_particles();
     for (Element& e : s.hierarchy.elements) {
-        e.radiosity = e.leaf() ? e.emitted + e.rho * e.direct : Rgb(0.0F);
+        e.radiosity = e.leaf() ? e.first_radiosity() : Rgb(0.0F);
     }
     s.hierarchy.pull_radiosity();
     if (context.should_stop()) {
@@ -467,7 +525,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         double area = 0.0;
         for (const Element& e : s.hierarchy.elements) {
             if (e.leaf()) {
-                light += double(e.area) * luminance(e.direct + e.irradiance);
+                light += double(e.area) * luminance(e.direct + e.caustic + e.irradiance);
                 area += e.area;
             }
         }
@@ -478,7 +536,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         timer.next("layers");
         s.reflected = std::make_unique<IndirectGather>(
             s.hierarchy, *s.rays, bright_leaves(s.hierarchy, s.hierarchy.room, quality.bright_contrast),
-            [&s](const Hit& hit, Rgb& light) { return s.mapped_light(hit, light); });
+            [&s](const Hit& hit, Rgb& light) { return s.mapped_light(hit, light); }, scene.environment.sky_radiance);
         CacheSettings cache_settings = field.cache;
         cache_settings.light_floor = light_floor;
         IrradianceCache cache(
@@ -497,6 +555,13 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
             *s.rays, light_field, {s.charts, s.maps.front, s.maps.back}, settings,
             [&](std::uint32_t surface) { return lit[surface] != 0; }, context, from, to);
         statistics.records = cache.size();
+        if (s.particles && set.complete) {
+            timer.next("caustics");
+            if (s.caustics.empty()) {
+                s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, quality.caustics);
+            }
+            attach_caustics(set.surfaces, *s.rays, *s.particles, s.caustics);
+        }
         return set;
     };
 
@@ -512,6 +577,10 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         const LeafSurroundings around = look_around(s.hierarchy, *s.rays, leaves, {quality.leaf_rays, covered}, context);
         if (context.should_stop()) {
             return;
+        }
+        s.light_leaves_by_particles();
+        for (std::size_t i = 0; i < leaves.size(); ++i) { // the sky in mirrors and lenses
+            s.hierarchy.elements[leaves[i]].caustic += kPi * scene.environment.sky_radiance * around.sky[i];
         }
         const LeafExchange exchange(s.hierarchy, leaves, around);
         const SolveReport report =
@@ -555,6 +624,10 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
             return stopped();
         }
         publish(std::move(first), false);
+    }
+    timer.next("particles");
+    if (!s.trace_particles(quality.particles, options.seed, context)) {
+        return stopped();
     }
     // The sharp light first: means of leaves over the coarse maps are off where light changes within a texel.
     if (!direct_maps(quality.maps, quality.field, 0.2, 0.45)) {

@@ -48,6 +48,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         out.maps.contrast = 0.06F;
         out.refine_rounds = 1;
         out.leaf_rays = 64;
+        out.particles = 60'000;
         out.solver_tolerance = 1e-3;
         usual_error = 0.10;
         break;
@@ -64,6 +65,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         out.maps.contrast = 0.015F;
         out.refine_rounds = 3;
         out.leaf_rays = 256;
+        out.particles = 1'500'000;
         out.solver_tolerance = 1e-5;
         usual_error = 0.02;
         break;
@@ -97,6 +99,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     out.first_maps.first_level = 0;
     out.first_maps.max_level = 3;
     out.first_maps.contrast = 0.2F;
+    out.caustics.mesh_edge = out.layers.base_edge;
     out.first_layers = out.layers;
     out.first_layers.base_edge = 2.0F * out.layers.base_edge;
     out.first_layers.max_vertices = 20'000;

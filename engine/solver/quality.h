@@ -1,6 +1,7 @@
 // What "draft", "normal" and "fine" mean: every number of the solver that depends on the wish for quality, in one place.
 #pragma once
 
+#include "engine/caustics/caustic_builder.h"
 #include "engine/geometry/surface_charts.h"
 #include "engine/layers/direct_map_builder.h"
 #include "engine/layers/layer_builder.h"
@@ -33,10 +34,12 @@ struct QualitySettings {
     int refine_rounds = 2;          ///< refinements, each followed by a solve
     double solver_tolerance = 1e-4; ///< relative residual
     int max_iterations = 400;
-    unsigned leaf_rays = 128;   ///< over the hemisphere of every leaf, a power of two
-    int leaf_levels = 4;        ///< rounds of splitting leaves on which reflected light is uneven
-    float leaf_contrast = 0.2F; ///< what counts as uneven, relative
-    unsigned leaf_samples = 4;  ///< direct-light samples on a leaf
+    unsigned leaf_rays = 128;          ///< over the hemisphere of every leaf, a power of two
+    int leaf_levels = 4;               ///< rounds of splitting leaves on which reflected light is uneven
+    float leaf_contrast = 0.2F;        ///< what counts as uneven, relative
+    unsigned leaf_samples = 4;         ///< direct-light samples on a leaf
+    std::uint32_t particles = 250'000; ///< emitted at most
+    CausticSettings caustics;
 };
 
 /// Settings for a scene whose bounds have the given diagonal (metres). Lengths follow the scene within the limits of rooms:

@@ -1,0 +1,38 @@
+// Caustic light of all surfaces: textures where it has detail, the mesh's vertices elsewhere.
+#pragma once
+
+#include "engine/caustics/caustic_builder.h"
+#include "engine/layers/surface_layer.h"
+#include "engine/particles/particle_map.h"
+
+namespace atrium {
+
+/// Caustic light before there is a mesh to show it on. Empty where no particle landed.
+struct CausticLight {
+    /// One surface side that particles landed on.
+    struct Side {
+        std::uint32_t surface = 0; ///< of RayScene::surfaces()
+        bool back = false;
+        std::vector<std::shared_ptr<const CausticTexture>> textures;
+        std::vector<std::uint32_t> on_mesh; ///< into ParticleMap::landings()
+    };
+    std::vector<Side> sides; ///< by surface, front before back
+    std::vector<CausticRecord> records;
+
+    [[nodiscard]] bool empty() const { return sides.empty(); }
+    /// Bytes of the textures.
+    [[nodiscard]] std::size_t memory_bytes() const;
+    [[nodiscard]] std::size_t texture_count() const;
+};
+
+/// Decides, sizes and fills the textures of every side. `charts` as chart_surfaces() makes them. Parallel; the same for any
+/// number of threads.
+CausticLight build_caustic_light(const RayScene& rays, std::span<const SurfaceCharts> charts, const ParticleMap& particles,
+                                 const CausticSettings& settings);
+
+/// Puts the light on the layers: textures are shared, landings without one are spread over the vertices around them, so that
+/// what triangles interpolate holds their power exactly. `layers` are those of the same ray scene.
+void attach_caustics(std::vector<std::shared_ptr<const SurfaceLayer>>& layers, const RayScene& rays,
+                     const ParticleMap& particles, const CausticLight& light);
+
+} // namespace atrium

@@ -1,0 +1,40 @@
+// Where particles start: points of lamps and emitters, and directions towards a target's bounds.
+#pragma once
+
+#include "engine/particles/specular_targets.h"
+#include "engine/radiosity/direct_light.h"
+#include "engine/radiosity/hierarchy.h"
+
+#include <vector>
+
+namespace atrium {
+
+/// A source of particles: a lamp, the sun, or the shining leaves of one surface.
+struct ParticleSource {
+    PlacedLight light;                 ///< where `leaves` is empty
+    std::vector<std::uint32_t> leaves; ///< of the tree given to emit(): what shines of an area source
+    std::vector<double> power;         ///< of the leaves up to and including each, lumen
+    vec3 centre{0.0F};                 ///< of an area source's light
+    std::array<vec3, 2> extent{};      ///< its two longest axes, as far as a uniform strip of equal spread reaches
+    Rgb radiance{1.0F};                ///< lamps: intensity (cd) or normal irradiance (lux); emitters: 1
+    std::uint64_t key = 0;             ///< seeds its streams; from what it is, not from where it is stored
+};
+
+/// One particle about to leave. A derivative is by one of the numbers that it was made from, over [0,1].
+struct Emission {
+    vec3 origin{0.0F};
+    vec3 direction{0.0F};           ///< unit
+    Rgb throughput{0.0F};           ///< times ParticleSource::radiance, over the number of particles: lumen
+    std::array<vec3, 4> d_origin{}; ///< 0, 1: what spreads the particles over the target; 2, 3: the source's own size
+    std::array<vec3, 4> d_direction{};
+};
+
+/// Sources of a scene: lamps and suns of `direct`, and the leaves of `emitters` (may be empty) by surface.
+std::vector<ParticleSource> particle_sources(const DirectLight& direct, const Hierarchy& emitters, const RayScene& rays);
+
+/// A particle from four numbers in [0,1): the first two place it over the target's bounds as the source sees them, the
+/// others on the source. False where nothing goes that way (behind an emitter, outside a spot's cone).
+bool emit(const ParticleSource& source, const SpecularTarget& target, const Hierarchy& emitters, const RayScene& rays,
+          const vec4& u, Emission& out);
+
+} // namespace atrium
