@@ -16,7 +16,6 @@ Rgb absorption(const Material& material, float path);
 /// A surface that mirrors or refracts: mirror, polished metal, glass. Metals of roughness kDullMetal and above scatter so
 /// widely that they count as diffuse.
 bool is_specular(const Material& material);
-inline constexpr float kDullMetal = 0.5F;
 
 /// One way on from a specular surface.
 struct SpecularSample {

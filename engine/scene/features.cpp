@@ -66,7 +66,7 @@ Census take_census(const Scene& scene) {
             ++c.surfaces;
             c.emitters += m.emits() ? 1 : 0;
             c.mirrors += kind == MaterialKind::Mirror ? 1 : 0;
-            c.glossy += kind == MaterialKind::Glossy ? 1 : 0;
+            c.glossy += kind == MaterialKind::Glossy && m.roughness < kDullMetal ? 1 : 0;
             c.glass += m.transmission > 0.0F ? 1 : 0;
             c.solid_glass += kind == MaterialKind::DielectricSolid ? 1 : 0;
             c.cutouts += m.alpha_mode == Material::Alpha::Mask ? 1 : 0;
@@ -77,31 +77,39 @@ Census take_census(const Scene& scene) {
     return c;
 }
 
-constexpr const char* kMetalsAsDiffuse =
-    "Not simulated in this version: mirrors and metals count as diffuse reflectors of the same reflectance in the light "
-    "solution; stills follow them to the eye.";
+// "2 mirrors, 1 solid of glass": what bends or mirrors light.
+std::string specular_surfaces(const Census& c) {
+    std::string what;
+    const auto add = [&](std::size_t n, const char* one, const char* many) {
+        if (n > 0) {
+            what += (what.empty() ? "" : ", ") + counted(n, one, many);
+        }
+    };
+    add(c.mirrors, "mirror", "mirrors");
+    add(c.glossy, "glossy metal", "glossy metals");
+    add(c.glass - c.solid_glass, "sheet of glass", "sheets of glass");
+    add(c.solid_glass, "solid of glass", "solids of glass");
+    return what;
+}
 
-std::string specular_why(const Census& c) {
-    if (c.mirrors + c.glossy > 0) {
-        return kMetalsAsDiffuse;
+bool needs_particles(const Census& c) { return c.mirrors + c.glossy + c.glass > 0 && c.suns + c.lamps + c.emitters > 0; }
+
+std::string particles_why(const Census& c) {
+    if (c.mirrors + c.glossy + c.glass == 0) {
+        return "There is no specular surface in the scene.";
     }
-    if (c.glass > 0) {
-        return "Not simulated in this version: light passes " + counted(c.glass, "glass surface", "glass surfaces") +
-               " straight, without being bent or mirrored.";
+    if (c.suns + c.lamps + c.emitters == 0) {
+        return "No lamp, sun or luminous surface shines on the scene's " + specular_surfaces(c) + ".";
     }
-    return "There is no specular surface in the scene.";
+    return "Light of lamps and suns goes on over " + specular_surfaces(c) + ".";
 }
 
 std::string refraction_why(const Census& c) {
-    if (c.glass == 0) {
-        return "There is no glass in the scene.";
-    }
-    std::string out = "Not simulated in this version: light passes " + counted(c.glass, "glass surface", "glass surfaces") +
-                      " straight, without being bent";
     if (c.solid_glass > 0) {
-        out += "; of these " + counted(c.solid_glass, "bounds a solid", "bound solids") + " that would focus it";
+        return "Light is bent by " + counted(c.solid_glass, "solid of glass", "solids of glass") +
+               "; flat panes let it straight.";
     }
-    return out + ".";
+    return c.glass > 0 ? "All glass is in thin sheets, which light crosses unbent." : "There is no glass in the scene.";
 }
 
 std::string specular_view_why(const Census& c) {
@@ -167,11 +175,15 @@ std::vector<Feature> scene_features(const Scene& scene) {
             counted(c.suns, "directional light shines", "directional lights shine") + ", the first is " + c.first_sun + ".";
     }
     return {
-        {"particles", false, specular_why(c)},
-        {"caustic_textures", false, specular_why(c)},
-        {"octree", false, specular_why(c)},
-        {"refraction", false, refraction_why(c)},
-        {"glossy", false, c.glossy > 0 ? kMetalsAsDiffuse : "There is no glossy metal in the scene."},
+        {"particles", needs_particles(c), particles_why(c)},
+        {"caustic_textures", needs_particles(c),
+         needs_particles(c) ? "Made where what particles bring has finer detail than the mesh." : particles_why(c)},
+        {"octree", false, needs_particles(c) ? "Nothing is selected to move." : particles_why(c)},
+        {"refraction", c.solid_glass > 0, refraction_why(c)},
+        {"glossy", c.glossy > 0,
+         c.glossy > 0
+             ? "Light is scattered about the mirror direction by " + counted(c.glossy, "glossy metal", "glossy metals") + "."
+             : "There is no glossy metal in the scene."},
         {"sun", c.suns > 0, sun},
         {"sky", sky, sky_why(scene)},
         {"textures", !c.textures.empty(),

@@ -37,7 +37,8 @@ const char* material_kind_name(MaterialKind kind) {
 }
 
 Rgb diffuse_reflectance(const Material& m) {
-    const Rgb rho = m.base_color * (m.metallic + (1.0F - m.metallic) * (1.0F - m.transmission));
+    const bool mirrors = m.metallic >= 0.5F && m.roughness < kDullMetal;
+    const Rgb rho = m.base_color * ((mirrors ? 0.0F : m.metallic) + (1.0F - m.metallic) * (1.0F - m.transmission));
     return glm::clamp(rho, Rgb(0.0F), Rgb(kMaxReflectance));
 }
 

@@ -97,13 +97,16 @@ using MaterialId = Id<Material>;
 /// Below this roughness a metal is treated as a perfect mirror.
 inline constexpr float kMirrorRoughness = 0.04F;
 
+/// Metals of this roughness and above scatter so widely that they count as diffuse reflectors.
+inline constexpr float kDullMetal = 0.5F;
+
 /// Which transport a material needs.
 enum class MaterialKind : std::uint8_t { Diffuse, Mirror, Glossy, DielectricThin, DielectricSolid };
 MaterialKind classify(const Material& material);
 const char* material_kind_name(MaterialKind kind);
 
 /// Reflectance for diffuse transport of the untextured material, each channel in [0, kMaxReflectance]: base colour of a
-/// non-metal, less what it transmits. Metals are counted with their specular reflectance (see ARCHITECTURE: first light).
+/// non-metal, less what it transmits, and of dull metal (kDullMetal). What metals mirror is no part of it.
 Rgb diffuse_reflectance(const Material& material);
 
 /// Reflectance is clamped here, with a problem in the list: at 1 a closed room has no steady state.

@@ -342,6 +342,23 @@ struct GiEngine::Impl {
         return lit;
     }
 
+    // What the scene might have needed and did not.
+    void tell_left_out(std::vector<Feature>& features) const {
+        const bool any = particles && particles->emitted() > 0;
+        for (Feature& f : features) {
+            if (f.name == "particles" && f.used && !any) {
+                f.used = false;
+                f.why = targets ? "No light that stands out reaches a surface over a mirror, metal or glass, but for flat "
+                                  "mirrors, whose images the direct layer has."
+                                : "No light stands out, or nothing mirrors it.";
+            }
+            if (f.name == "caustic_textures" && f.used && caustics.texture_count() == 0) {
+                f.used = false;
+                f.why = any ? "What particles bring has no finer detail than the mesh." : "There are no particles.";
+            }
+        }
+    }
+
     // Of all light that falls on surfaces, that which other surfaces sent; 0 in the dark.
     [[nodiscard]] double reflected_share() const {
         const Element& root = hierarchy.elements.front();
@@ -431,6 +448,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         for (auto& phase : statistics.phases) {
             phase.share = phase.seconds / std::max(statistics.time.solve, 1e-9);
         }
+        s.tell_left_out(statistics.features);
         solution->surfaces = std::move(layers.surfaces);
         solution->statistics = statistics;
         latest = std::move(solution);

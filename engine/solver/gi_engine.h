@@ -15,7 +15,7 @@ namespace atrium {
 struct SolveOptions {
     SolverSettings::Quality quality = SolverSettings::Quality::Normal;
     std::uint32_t seed = 1;
-    double target_error = 0;     ///< relative; 0 = what the quality stands for
+    double target_error = 0; ///< relative; 0 = what the quality stands for
     std::uint64_t revision = 0;
     bool paper_mode = false;     ///< the algorithms of 2001 where ours differ
     std::uint32_t particles = 0; ///< emitted at most; 0 = what the quality stands for
