@@ -4,6 +4,7 @@
 #include "engine/layers/covered_points.h"
 #include "engine/layers/light_smoothing.h"
 #include "engine/layers/node_mesh.h"
+#include "engine/optics/specular.h"
 
 #include <algorithm>
 #include <map>
@@ -77,6 +78,7 @@ private:
         const RaySurface& surface = rays_.surfaces()[s];
         const MeshData& data = *surface.mesh;
         const bool back = surface.back_side && back_lit_(s);
+        const bool unlit = shows_no_irradiance(rays_.material(s));
         // Flat-shaded files: triangles of one plane share their vertices all the same, so each is lit once.
         std::map<std::array<std::int32_t, 5>, std::uint32_t> copied;
         const auto copy_key = [&](std::uint32_t v, const vec3& face_normal,
@@ -106,6 +108,7 @@ private:
                 vertex.local = data.positions[v];
                 vertex.position = p[v];
                 vertex.wants_back = back;
+                vertex.unlit = unlit;
                 if (chart != SurfaceCharts::kNone) {
                     vertex.light_uv = charts->uv[index][std::size_t(k)];
                 }
@@ -166,6 +169,9 @@ private:
         parallel_chunks(requests.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end && !context_.should_stop(); ++i) {
                 LightVertex& v = *requests[i].vertex;
+                if (v.unlit) {
+                    continue;
+                }
                 v.front_covered = covered(v, v.normal);
                 v.back_covered = v.wants_back && covered(v, -v.normal);
             }
@@ -177,6 +183,9 @@ private:
         points.reserve(requests.size());
         for (const Request& r : requests) {
             const LightVertex& v = *r.vertex;
+            if (v.unlit) {
+                continue;
+            }
             if (!v.front_covered) {
                 points.push_back({sample_position(v, v.normal), v.normal});
             }
@@ -197,6 +206,9 @@ private:
             parallel_chunks(mesh.vertices.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
                 for (std::size_t i = begin; i < end && !context_.should_stop(); ++i) {
                     LightVertex& v = mesh.vertices[i];
+                    if (v.unlit) {
+                        continue;
+                    }
                     if (!v.front_covered) {
                         v.front = field_.reflected(sample_position(v, v.normal), v.normal);
                     }
@@ -251,7 +263,7 @@ private:
     }
 
     void sample_side(const LightVertex& v, const vec3& n, DirectSample& reflected, DirectSample& direct, bool hidden) const {
-        if (hidden) {
+        if (hidden || v.unlit) {
             return;
         }
         const vec3 p = sample_position(v, n);

@@ -51,6 +51,7 @@ LightVertex midpoint(const LightVertex& a, const LightVertex& b) {
     m.light_uv = 0.5F * (a.light_uv + b.light_uv);
     m.color = 0.5F * (a.color + b.color);
     m.wants_back = a.wants_back;
+    m.unlit = a.unlit;
     return m;
 }
 

@@ -24,6 +24,7 @@ struct LightVertex {
     float triangles = 0.0F;
     std::uint32_t weld = 0; ///< same for coincident vertices of the node
     bool wants_back = false;
+    bool unlit = false;         ///< of a mirror or glass: its irradiance is of no interest
     bool front_covered = false; ///< something lies on the surface here: no light of its own, shown like its neighbours
     bool back_covered = false;
     vec2 light_uv{-1.0F}; ///< chart-space coordinates (tiles); negative: uncharted, direct light is sampled here

@@ -101,6 +101,11 @@ Rgb absorption(const Material& m, float path) {
 
 bool is_specular(const Material& m) { return is_metal(m) ? m.roughness < kDullMetal : m.transmission > 0.0F; }
 
+bool shows_no_irradiance(const Material& m) {
+    constexpr float kShownAsMatt = 0.35F; // metals of this roughness and above are drawn with some of their irradiance
+    return is_specular(m) && !(max_component(diffuse_reflectance(m)) > 0.0F) && (!is_metal(m) || m.roughness < kShownAsMatt);
+}
+
 bool is_clear_sheet(const Material& m) { return !is_metal(m) && m.transmission > 0.0F && m.thickness <= 0.0F && smooth(m); }
 
 SpecularSample sample_specular(const SpecularPoint& at, const vec3& in, const vec3& u) {

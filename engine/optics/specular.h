@@ -16,6 +16,8 @@ Rgb absorption(const Material& material, float path);
 /// A surface that mirrors or refracts: mirror, polished metal, glass. Metals of roughness kDullMetal and above scatter so
 /// widely that they count as diffuse.
 bool is_specular(const Material& material);
+/// A surface whose own irradiance nobody sees: it scatters nothing, and is not shown as if it did.
+bool shows_no_irradiance(const Material& material);
 
 /// One way on from a specular surface.
 struct SpecularSample {

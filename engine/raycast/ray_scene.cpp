@@ -4,6 +4,7 @@
 #include "engine/geometry/mesh_topology.h"
 #include "engine/geometry/surface_charts.h"
 #include "engine/geometry/tessellate.h"
+#include "engine/optics/specular.h"
 #include "engine/scene/texture_sampling.h"
 
 #include <algorithm>
@@ -29,18 +30,6 @@ float end_offset(const vec3& p) {
 }
 
 bool lets_light_through(const Material& m) { return m.transmission > 0.0F || m.alpha_mode != Material::Alpha::Opaque; }
-
-// Unpolarised Fresnel reflectance of a dielectric interface; cos_i on the side of relative index 1.
-float fresnel_dielectric(float cos_i, float eta) {
-    const float sin2_t = (1.0F - cos_i * cos_i) / (eta * eta);
-    if (sin2_t >= 1.0F) {
-        return 1.0F;
-    }
-    const float cos_t = std::sqrt(1.0F - sin2_t);
-    const float rs = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-    const float rp = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-    return 0.5F * (rs * rs + rp * rp);
-}
 
 // One crossing of a glass surface without bending. Thin: both faces with their inner reflections, (1-F)/(1+F). Solid: one
 // face; the absorption between two faces is added by the caller's caller (particles), here the tint stands for it.
@@ -88,19 +77,30 @@ struct RayScene::Impl {
         // numbers.
         origin = world.empty() ? dvec3(0.0) : glm::floor(world.centre() + 0.5);
         std::map<const MeshData*, bool> closed;
-        std::map<ShapeId, std::shared_ptr<const MeshData>> tessellated;
+        std::map<std::pair<ShapeId, int>, std::shared_ptr<const MeshData>> tessellated;
         for (const NodeId id : scene.in_tree_order()) {
             const Node& node = *scene.nodes.find(id);
             const Shape* shape = scene.shapes.find(node.shape);
             if (shape == nullptr || !scene.shown(id)) {
                 continue;
             }
-            auto& mesh = tessellated[node.shape];
+            const int segments = curve_segments(node);
+            auto& mesh = tessellated[{node.shape, segments}];
             if (!mesh) {
-                mesh = tessellate(shape->geometry);
+                mesh = tessellate(shape->geometry, {segments});
             }
             add_node(id, node, *shape, mesh, closed);
         }
+    }
+
+    // Lenses and curved mirrors need their shape closer than what is matt: light that they focus shows every facet.
+    [[nodiscard]] int curve_segments(const Node& node) const {
+        constexpr int kFocusing = 128;
+        const bool focuses = std::any_of(node.materials.begin(), node.materials.end(), [&](MaterialId id) {
+            const Material* m = scene.materials.find(id);
+            return m != nullptr && is_specular(*m);
+        });
+        return focuses ? kFocusing : TessellationOptions{}.segments;
     }
 
     void add_node(NodeId id, const Node& node, const Shape& shape, const std::shared_ptr<const MeshData>& mesh,

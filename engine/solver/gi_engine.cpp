@@ -5,6 +5,7 @@
 #include "engine/layers/caustic_layer.h"
 #include "engine/layers/covered_points.h"
 #include "engine/layers/layer_builder.h"
+#include "engine/optics/specular.h"
 #include "engine/particles/particle_map.h"
 #include "engine/radiosity/direct_light.h"
 #include "engine/radiosity/indirect_gather.h"
@@ -507,6 +508,11 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     // Where no light comes straight from a source there is nothing to map.
     s.charts =
         s.nothing_direct() ? std::vector<SurfaceCharts>(s.rays->surfaces().size()) : chart_surfaces(*s.rays, quality.charts);
+    for (std::uint32_t i = 0; i < s.charts.size(); ++i) {
+        if (shows_no_irradiance(s.rays->material(i))) {
+            s.charts[i] = {};
+        }
+    }
     const auto direct_maps = [&](const DirectMapSettings& wanted, const FieldSettings& field, double from, double to) {
         timer.next("direct");
         DirectMapSettings settings = wanted;
