@@ -286,7 +286,7 @@ struct RayScene::Impl {
         const Material& m = *materials[h.surface];
         const vec4 color = self.base_color(h.surface, h.triangle, h.barycentric);
         Rgb through(0.0F);
-        if (m.transmission > 0.0F) {
+        if (m.transmission > 0.0F && m.thickness <= 0.0F && m.roughness < kMirrorRoughness) {
             through = glass_transmittance(m, Rgb(color), std::abs(glm::dot(h.geometric_normal, direction)));
         }
         if (m.alpha_mode == Material::Alpha::Mask) {

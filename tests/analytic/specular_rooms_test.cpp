@@ -1,0 +1,89 @@
+// Rooms with mirrors, metal and glass in them whose light is known.
+#include "tests/support/light_cases.h"
+#include "tests/support/rooms.h"
+
+#include <gtest/gtest.h>
+
+namespace atrium {
+namespace {
+
+using test::add_material;
+using test::add_rectangle;
+using test::add_shape;
+using test::Solved;
+
+MaterialId add_metal(Scene& scene, float rho, float roughness) {
+    Material m;
+    m.base_color = Rgb(rho);
+    m.metallic = 1.0F;
+    m.roughness = roughness;
+    return scene.materials.insert(m);
+}
+
+MaterialId add_solid_glass(Scene& scene, float ior) {
+    Material m;
+    m.base_color = Rgb(1.0F);
+    m.roughness = 0.0F;
+    m.transmission = 1.0F;
+    m.thickness = 1.0F;
+    m.ior = ior;
+    return scene.materials.insert(m);
+}
+
+// ENC-MIRROR-SYMM: half of the room of ENC-ROOM-543, closed with a lossless mirror at x = 2. y and z of the case are our z
+// and y.
+TEST(SpecularRooms, MirrorStandsForTheOtherHalf) {
+    Scene scene;
+    const MaterialId wall = add_material(scene, 0.5F);
+    const double h = 3.0, d = 4.0, w = 2.0;
+    add_rectangle(scene, "floor", {w / 2, 0, d / 2}, {0, 1, 0}, {1, 0, 0}, 2, 4, add_material(scene, 0.2F));
+    add_rectangle(scene, "ceiling", {w / 2, h, d / 2}, {0, -1, 0}, {1, 0, 0}, 2, 4, add_material(scene, 0.7F));
+    add_rectangle(scene, "wall x0", {0, h / 2, d / 2}, {1, 0, 0}, {0, 0, 1}, 4, 3, wall);
+    add_rectangle(scene, "wall z0", {w / 2, h / 2, 0}, {0, 0, 1}, {1, 0, 0}, 2, 3, wall);
+    add_rectangle(scene, "wall z1", {w / 2, h / 2, d}, {0, 0, -1}, {1, 0, 0}, 2, 3, wall);
+    add_rectangle(scene, "mirror", {w, h / 2, d / 2}, {-1, 0, 0}, {0, 0, 1}, 4, 3, add_metal(scene, 1.0F, 0.0F));
+    add_rectangle(scene, "source", {1.75, h, 2}, {0, -1, 0}, {1, 0, 0}, 0.5F, 1, add_material(scene, 0.7F, 1000.0F * kPi));
+    Solved s = test::solve(scene, SolverSettings::Quality::Normal);
+    ASSERT_TRUE(s.solution);
+    struct Probe {
+        const char* name;
+        dvec3 at, normal;
+        double total;
+    };
+    for (const Probe& p :
+         {Probe{"floor 1 1", {1, 0, 1}, {0, 1, 0}, 106.2131}, Probe{"floor 1 2", {1, 0, 2}, {0, 1, 0}, 121.2139},
+          Probe{"wall z0", {1, 1.5, 0}, {0, 0, 1}, 87.7549}, Probe{"wall x0", {0, 1.5, 2}, {1, 0, 0}, 106.436}}) {
+        const SensorReading shown = read_surface(scene, *s.solution, p.at, p.normal);
+        ASSERT_TRUE(shown.on_surface) << p.name;
+        std::printf("ENC-MIRROR-SYMM %s: %.2f lux shown, %.2f expected\n", p.name, double(luminance(shown.irradiance)),
+                    p.total);
+        EXPECT_NEAR(luminance(shown.irradiance) / p.total, 1.0, 0.01) << p.name;
+    }
+    EXPECT_NEAR(s.solution->statistics.energy.defect, 0.0, 0.02);
+}
+
+// ENC-FURNACE with things in it that absorb nothing: radiance, and so irradiance, is the same everywhere.
+TEST(SpecularRooms, FurnaceWithMirrorAndGlassCloses) {
+    constexpr float kRho = 0.5F;
+    Scene scene;
+    test::add_room(scene, 4, 3, 4, add_material(scene, kRho, 1.0F));
+    add_shape(scene, "ball of metal", Sphere{0.5F}, {1.2, 1.0, 1.2}, add_metal(scene, 1.0F, 0.0F));
+    add_shape(scene, "ball of glass", Sphere{0.5F}, {2.8, 1.0, 2.8}, add_solid_glass(scene, 1.5F));
+    Solved s = test::solve(scene, SolverSettings::Quality::Normal);
+    ASSERT_TRUE(s.solution);
+    const double expected = 1.0 / (1.0 - double(kRho)); // B = M + rho E, E = B
+    for (const auto& layer : s.solution->surfaces) {
+        const Node& node = *scene.nodes.find(layer->node);
+        if (node.name.starts_with("ball")) {
+            continue;
+        }
+        for (const Rgb& e : layer->irradiance_front) {
+            EXPECT_NEAR(luminance(e) / expected, 1.0, 0.03) << node.name;
+        }
+    }
+    EXPECT_NEAR(s.solution->statistics.energy.defect, 0.0, 0.01);
+    EXPECT_EQ(s.solution->statistics.particles_emitted, 0U); // no light stands out: the rays of the gather see over mirrors
+}
+
+} // namespace
+} // namespace atrium
