@@ -168,7 +168,7 @@ bool receives(const RayScene& rays, const Hit& hit) {
 
 void trace_particle(const RayScene& rays, const SpecularTargets& targets, const Hierarchy& emitters,
                     const ParticleStream& stream, std::uint32_t index, const CarriedByImage& by_image,
-                    std::vector<Landing>& landings, ParticleEnergy& energy) {
+                    std::vector<Landing>& landings, ParticleEnergy& energy, std::vector<Ray>* path) {
     const auto seed = std::uint32_t(stream.key);
     const vec2 a = sobol_owen2(index, 0, seed);
     const vec2 b = sobol_owen2(index, 2, seed);
@@ -193,6 +193,9 @@ void trace_particle(const RayScene& rays, const SpecularTargets& targets, const 
     bool imaged = false; // so far the chain is one that mirror images carry
     for (unsigned met = 0; met < kMostSurfaces; ++met) {
         const Hit hit = rays.nearest(way.ray);
+        if (path != nullptr) {
+            path->push_back({way.ray.origin, way.ray.direction, hit ? hit.t : way.ray.tmax});
+        }
         if (!hit) {
             energy.escaped += way.bends > 0 ? power(way.through) : 0.0;
             return;

@@ -17,3 +17,6 @@ add_executable(diffuse_bench
 target_link_libraries(diffuse_bench PRIVATE atrium_engine CLI11::CLI11 embree)
 target_compile_definitions(diffuse_bench PRIVATE
   ATRIUM_SOURCE_DIR="${CMAKE_SOURCE_DIR}" ATRIUM_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
+
+add_executable(particle_bench ${CMAKE_CURRENT_LIST_DIR}/particle_bench.cpp ${CMAKE_CURRENT_LIST_DIR}/bare_embree.cpp)
+target_link_libraries(particle_bench PRIVATE atrium_engine CLI11::CLI11 embree)
