@@ -5,8 +5,8 @@
 
 namespace atrium {
 
-/// Unpolarised Fresnel reflectance of a dielectric interface, in [0, 1]; `cos_i` >= 0 on the side of relative index 1, `eta` =
-/// index behind over index in front. 1 at total internal reflection.
+/// Unpolarised Fresnel reflectance of a dielectric interface, in [0, 1]; `cos_i` >= 0 on the side of relative index 1, `eta`
+/// = index behind over index in front. 1 at total internal reflection.
 float fresnel_dielectric(float cos_i, float eta);
 
 /// Beer-Lambert transmittance of a solid along `path` metres, as KHR_materials_volume has it: attenuation_color ^ (path /
@@ -16,7 +16,6 @@ Rgb absorption(const Material& material, float path);
 /// A surface that mirrors or refracts: mirror, polished metal, glass. Metals of roughness kDullMetal and above scatter so
 /// widely that they count as diffuse.
 bool is_specular(const Material& material);
-inline constexpr float kDullMetal = 0.5F;
 
 /// One way on from a specular surface.
 struct SpecularSample {
@@ -33,13 +32,16 @@ struct SpecularPoint {
     vec3 normal{0.0F};    ///< unit shading normal, on the side that the light comes from
     vec3 geometric{0.0F}; ///< unit geometric normal, on the same side
     bool front = true;    ///< the light comes from the surface's front: it enters a solid
+    bool slab = false;    ///< a face of a flat pane of solid glass: what goes through goes straight on, as with clear sheets
 };
 
-/// Picks one way on for light that arrives along `in` (unit, towards the surface) by three numbers in [0,1): u.x, u.y place it
-/// within the lobe, u.z picks the lobe. What the material scatters diffusely is no part of it, nor what goes straight on
-/// through thin clear glass (RayScene::straight_through()): of thin clear glass only the reflection is left. Weights carry
-/// radiance backwards and power forwards alike (both ends of a path in air: the squares of the indices cancel). Mean weight
-/// over u <= 1. GGX by visible normals (Heitz 2018), height-correlated Smith; smooth below kMirrorRoughness.
+/// Picks one way on for light that arrives along `in` (unit, towards the surface) by three numbers in [0,1): u.x, u.y place
+/// it within the lobe, u.z picks the lobe. What the material scatters diffusely is no part of it, nor what goes straight on
+/// through thin clear glass (RayScene::straight_through()): of thin clear glass and slabs only the reflection is left.
+/// Weights carry radiance backwards and power forwards alike (both ends of a path in air: the squares of the indices
+/// cancel). Mean weight over u <= 1. GGX by visible normals (Heitz 2018), height-correlated Smith; smooth below
+/// kMirrorRoughness. Frosted sheets send through what a mirror image of their reflection lobe says, tinted. Dull and
+/// diffuse materials, and points that no light can come to, give weight 0. Any input; never NaN.
 SpecularSample sample_specular(const SpecularPoint& at, const vec3& in, const vec3& u);
 
 /// Share of light along `in` that sample_specular() sends on, mean over u, luminance: for telling which surfaces matter.

@@ -4,6 +4,7 @@
 #include "engine/geometry/mesh_topology.h"
 #include "engine/geometry/surface_charts.h"
 #include "engine/geometry/tessellate.h"
+#include "engine/optics/specular.h"
 #include "engine/scene/texture_sampling.h"
 
 #include <algorithm>
@@ -30,24 +31,12 @@ float end_offset(const vec3& p) {
 
 bool lets_light_through(const Material& m) { return m.transmission > 0.0F || m.alpha_mode != Material::Alpha::Opaque; }
 
-// Unpolarised Fresnel reflectance of a dielectric interface; cos_i on the side of relative index 1.
-float fresnel_dielectric(float cos_i, float eta) {
-    const float sin2_t = (1.0F - cos_i * cos_i) / (eta * eta);
-    if (sin2_t >= 1.0F) {
-        return 1.0F;
-    }
-    const float cos_t = std::sqrt(1.0F - sin2_t);
-    const float rs = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-    const float rp = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
-    return 0.5F * (rs * rs + rp * rp);
-}
-
 // One crossing of a glass surface without bending. Thin: both faces with their inner reflections, (1-F)/(1+F). Solid: one
 // face; the absorption between two faces is added by the caller's caller (particles), here the tint stands for it.
 Rgb glass_transmittance(const Material& m, const Rgb& tint, float cos_i) {
     const float f = fresnel_dielectric(cos_i, std::max(m.ior, 1.0F));
     const float through = m.thickness > 0.0F ? 1.0F - f : (1.0F - f) / (1.0F + f);
-    return tint * (through * m.transmission);
+    return tint * (through * m.transmitted_share());
 }
 
 struct alignas(64) Counter {

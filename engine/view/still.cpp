@@ -10,7 +10,6 @@ namespace atrium {
 namespace {
 
 constexpr float kLeastThroughput = 0.004F; // branches that add less than this to a pixel are not followed
-constexpr float kDullMetal = 0.35F;        // rougher metals are shown by their diffuse stand-in: no lobe to follow
 
 struct Dielectric {
     float reflectance = 1.0F;
