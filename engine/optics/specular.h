@@ -16,6 +16,7 @@ Rgb absorption(const Material& material, float path);
 /// A surface that mirrors or refracts: mirror, polished metal, glass. Metals of roughness kDullMetal and above scatter so
 /// widely that they count as diffuse.
 bool is_specular(const Material& material);
+
 /// A surface whose own irradiance nobody sees: it scatters nothing, and is not shown as if it did.
 bool shows_no_irradiance(const Material& material);
 
@@ -34,13 +35,16 @@ struct SpecularPoint {
     vec3 normal{0.0F};    ///< unit shading normal, on the side that the light comes from
     vec3 geometric{0.0F}; ///< unit geometric normal, on the same side
     bool front = true;    ///< the light comes from the surface's front: it enters a solid
+    bool slab = false;    ///< a face of a flat pane of solid glass: what goes through goes straight on, as with clear sheets
 };
 
 /// Picks one way on for light that arrives along `in` (unit, towards the surface) by three numbers in [0,1): u.x, u.y place
 /// it within the lobe, u.z picks the lobe. What the material scatters diffusely is no part of it, nor what goes straight on
-/// through thin clear glass (RayScene::straight_through()): of thin clear glass only the reflection is left. Weights carry
-/// radiance backwards and power forwards alike (both ends of a path in air: the squares of the indices cancel). Mean weight
-/// over u <= 1. GGX by visible normals (Heitz 2018), height-correlated Smith; smooth below kMirrorRoughness.
+/// through thin clear glass (RayScene::straight_through()): of thin clear glass and slabs only the reflection is left.
+/// Weights carry radiance backwards and power forwards alike (both ends of a path in air: the squares of the indices
+/// cancel). Mean weight over u <= 1. GGX by visible normals (Heitz 2018), height-correlated Smith; smooth below
+/// kMirrorRoughness. Frosted sheets send through what a mirror image of their reflection lobe says, tinted. Dull and
+/// diffuse materials, and points that no light can come to, give weight 0. Any input; never NaN.
 SpecularSample sample_specular(const SpecularPoint& at, const vec3& in, const vec3& u);
 
 /// Share of light along `in` that sample_specular() sends on, mean over u, luminance: for telling which surfaces matter.

@@ -36,7 +36,7 @@ bool lets_light_through(const Material& m) { return m.transmission > 0.0F || m.a
 Rgb glass_transmittance(const Material& m, const Rgb& tint, float cos_i) {
     const float f = fresnel_dielectric(cos_i, std::max(m.ior, 1.0F));
     const float through = m.thickness > 0.0F ? 1.0F - f : (1.0F - f) / (1.0F + f);
-    return tint * (through * m.transmission);
+    return tint * (through * m.transmitted_share());
 }
 
 struct alignas(64) Counter {

@@ -1,5 +1,7 @@
 #include "engine/scene/material.h"
 
+#include <algorithm>
+
 namespace atrium {
 
 bool operator==(const Texture& a, const Texture& b) {
@@ -36,9 +38,13 @@ const char* material_kind_name(MaterialKind kind) {
     return "unknown";
 }
 
+float Material::transmitted_share() const {
+    return std::clamp(transmission, 0.0F, 1.0F) * (1.0F - std::clamp(metallic, 0.0F, 1.0F));
+}
+
 Rgb diffuse_reflectance(const Material& m) {
-    const bool mirrors = m.metallic >= 0.5F && m.roughness < kDullMetal;
-    const Rgb rho = m.base_color * ((mirrors ? 0.0F : m.metallic) + (1.0F - m.metallic) * (1.0F - m.transmission));
+    const bool shiny = m.metallic >= 0.5F && m.roughness < kDullMetal;
+    const Rgb rho = m.base_color * ((shiny ? 0.0F : m.metallic) + (1.0F - m.metallic) * (1.0F - m.transmission));
     return glm::clamp(rho, Rgb(0.0F), Rgb(kMaxReflectance));
 }
 

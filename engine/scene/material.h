@@ -90,14 +90,15 @@ struct Material {
 
     [[nodiscard]] Rgb emitted_radiance() const { return emissive_color * emissive_strength; }
     [[nodiscard]] bool emits() const { return max_component(emitted_radiance()) > 0.0F; }
+    /// Share of the non-reflected light that goes through, metallic part taken off; in [0, 1].
+    [[nodiscard]] float transmitted_share() const;
     friend bool operator==(const Material&, const Material&) = default;
 };
 using MaterialId = Id<Material>;
 
-/// Below this roughness a metal is treated as a perfect mirror.
+/// Below this roughness a metal is treated as a perfect mirror and glass as clear.
 inline constexpr float kMirrorRoughness = 0.04F;
-
-/// Metals of this roughness and above scatter so widely that they count as diffuse reflectors.
+/// From this roughness on a metal scatters so widely that it counts as a diffuse reflector.
 inline constexpr float kDullMetal = 0.5F;
 
 /// Which transport a material needs.
@@ -106,7 +107,8 @@ MaterialKind classify(const Material& material);
 const char* material_kind_name(MaterialKind kind);
 
 /// Reflectance for diffuse transport of the untextured material, each channel in [0, kMaxReflectance]: base colour of a
-/// non-metal, less what it transmits, and of dull metal (kDullMetal). What metals mirror is no part of it.
+/// non-metal, less what it transmits. A metal of roughness kDullMetal and above counts with its specular reflectance; what
+/// shinier metals reflect is engine/optics' business.
 Rgb diffuse_reflectance(const Material& material);
 
 /// Reflectance is clamped here, with a problem in the list: at 1 a closed room has no steady state.
