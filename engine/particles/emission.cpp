@@ -31,16 +31,9 @@ std::array<vec3, 8> corners(const Box3& b) {
     return out;
 }
 
-// A frame across `axis` in which the box looks small: turned with the silhouette's longest diagonal or kept with an edge.
-struct Window {
-    vec3 a{0.0F}; // unit, across the axis
-    vec3 b{0.0F};
-    vec2 low{0.0F};
-    vec2 high{0.0F};
-};
-
 // Smallest rectangle across `axis` around the points, over rotations by steps: bounds of the box's silhouette.
-template <class Project> Window smallest_window(const vec3& axis, const std::array<vec3, 8>& points, Project&& project) {
+template <class Project>
+ParticleAim smallest_window(const vec3& axis, const std::array<vec3, 8>& points, Project&& project) {
     vec3 t;
     vec3 b;
     make_frame(axis, t, b);
@@ -48,7 +41,7 @@ template <class Project> Window smallest_window(const vec3& axis, const std::arr
     for (std::size_t i = 0; i < 8; ++i) {
         flat[i] = project(points[i], t, b);
     }
-    Window best;
+    ParticleAim best;
     float least = std::numeric_limits<float>::infinity();
     constexpr int kTurns = 16;
     for (int k = 0; k < kTurns; ++k) {
@@ -64,40 +57,48 @@ template <class Project> Window smallest_window(const vec3& axis, const std::arr
         const vec2 size = high - low;
         if (size.x * size.y < least) {
             least = size.x * size.y;
-            best = {t * e.x + b * e.y, b * e.x - t * e.y, low, high};
+            best = {axis, t * e.x + b * e.y, b * e.x - t * e.y, low, high, true};
         }
     }
     return best;
 }
 
-// Directions from a point over the bounds of a target. `density` is the solid angle over the square of u at the direction.
-bool aim(const vec3& origin, const Box3& bounds, const vec2& u, vec3& direction, float& solid_angle, vec3& du, vec3& dv) {
+// A box as a point sees it, on the plane at distance 1 across the aim's axis; false where it is too close for that.
+bool look_at_box(const vec3& origin, const Box3& bounds, ParticleAim& aim) {
+    aim.low = vec2(std::numeric_limits<float>::infinity());
+    aim.high = vec2(-std::numeric_limits<float>::infinity());
+    for (const vec3& c : corners(bounds)) {
+        const vec3 d = c - origin;
+        const float depth = glm::dot(d, aim.axis);
+        if (!(depth > 0.0F) || depth * depth < 0.04F * glm::dot(d, d)) {
+            return false;
+        }
+        const vec2 at = vec2(glm::dot(d, aim.a), glm::dot(d, aim.b)) / depth;
+        aim.low = glm::min(aim.low, at);
+        aim.high = glm::max(aim.high, at);
+    }
+    return true;
+}
+
+// A direction over the aim's window, and the solid angle over the square of u there.
+void through_window(const ParticleAim& aim, const vec2& u, vec3& direction, float& solid_angle, vec3& du, vec3& dv) {
+    const vec2 size = glm::max(aim.high - aim.low, vec2(1e-7F));
+    const vec2 at = aim.low + u * size;
+    const vec3 v = aim.axis + at.x * aim.a + at.y * aim.b;
+    const float length = glm::length(v);
+    direction = v / length;
+    solid_angle = size.x * size.y / (length * length * length);
+    du = (aim.a - direction * glm::dot(direction, aim.a)) * (size.x / length);
+    dv = (aim.b - direction * glm::dot(direction, aim.b)) * (size.y / length);
+}
+
+// From close by or inside: a cone about the ball around the bounds, or all round.
+void through_cone(const vec3& origin, const Box3& bounds, const vec2& u, vec3& direction, float& solid_angle, vec3& du,
+                  vec3& dv) {
     const vec3 to_centre = bounds.centre() - origin;
     const float distance = glm::length(to_centre);
     const float radius = 0.5F * bounds.diagonal();
-    const auto box = corners(bounds);
-    bool in_front = distance > 1.05F * radius;
     const vec3 axis = distance > 0.0F ? to_centre / distance : vec3(0.0F, 0.0F, 1.0F);
-    for (const vec3& c : box) {
-        in_front = in_front && glm::dot(c - origin, axis) > 0.2F * glm::length(c - origin);
-    }
-    if (in_front) {
-        // A rectangle on the plane at distance 1.
-        const Window w = smallest_window(axis, box, [&](const vec3& c, const vec3& t, const vec3& b) {
-            const vec3 d = c - origin;
-            return vec2(glm::dot(d, t), glm::dot(d, b)) / glm::dot(d, axis);
-        });
-        const vec2 size = glm::max(w.high - w.low, vec2(1e-7F));
-        const vec2 at = w.low + u * size;
-        const vec3 v = axis + at.x * w.a + at.y * w.b;
-        const float length = glm::length(v);
-        direction = v / length;
-        solid_angle = size.x * size.y / (length * length * length);
-        du = (w.a - direction * glm::dot(direction, w.a)) * (size.x / length);
-        dv = (w.b - direction * glm::dot(direction, w.b)) * (size.y / length);
-        return solid_angle > 0.0F;
-    }
-    // From close by or inside: a cone about the ball around the bounds, or all round.
     const float sine = distance > 0.0F ? radius / distance : 2.0F;
     const float lowest = sine < 1.0F ? std::sqrt(1.0F - sine * sine) : -1.0F;
     vec3 t;
@@ -116,20 +117,17 @@ bool aim(const vec3& origin, const Box3& bounds, const vec2& u, vec3& direction,
     const vec2 step(u.x < 0.5F ? kStep : -kStep, u.y < 0.5F ? kStep : -kStep);
     du = (at({u.x + step.x, u.y}) - direction) / step.x;
     dv = (at({u.x, u.y + step.y}) - direction) / step.y;
-    return true;
 }
 
-bool emit_sun(const ParticleSource& source, const SpecularTarget& target, const RayScene& rays, const vec4& u,
-              Emission& out) {
+float sun_radius(const ParticleSource& source) {
+    return std::tan(float(radians_from_degrees(0.5 * source.light.light.angular_diameter_degrees)));
+}
+
+bool emit_sun(const ParticleSource& source, const SpecularTarget& target, const ParticleAim& w, const RayScene& rays,
+              const vec4& u, Emission& out) {
     const vec3 axis = source.light.axis;
-    const float radius = std::tan(float(radians_from_degrees(0.5 * source.light.light.angular_diameter_degrees)));
+    const float radius = sun_radius(source);
     const vec3 centre = target.bounds.centre();
-    Window w = smallest_window(axis, corners(target.bounds), [&](const vec3& c, const vec3& t, const vec3& b) {
-        return vec2(glm::dot(c - centre, t), glm::dot(c - centre, b));
-    });
-    const vec2 margin(radius * 0.5F * target.bounds.diagonal() + 1e-6F * target.bounds.diagonal());
-    w.low -= margin;
-    w.high += margin;
     const vec2 size = w.high - w.low;
     vec3 t;
     vec3 b;
@@ -149,8 +147,8 @@ bool emit_sun(const ParticleSource& source, const SpecularTarget& target, const 
     return true;
 }
 
-bool emit_area(const ParticleSource& source, const SpecularTarget& target, const Hierarchy& emitters, const RayScene& rays,
-               const vec4& u, Emission& out) {
+bool emit_area(const ParticleSource& source, const SpecularTarget& target, const ParticleAim& aim, const Hierarchy& emitters,
+               const RayScene& rays, const vec4& u, Emission& out) {
     const double total = source.power.back();
     const double pick = double(u.z) * total;
     const auto at = std::min(std::upper_bound(source.power.begin(), source.power.end(), pick) - source.power.begin(),
@@ -164,8 +162,11 @@ bool emit_area(const ParticleSource& source, const SpecularTarget& target, const
     float solid_angle = 0.0F;
     vec3 du;
     vec3 dv;
-    if (!aim(from.position, target.bounds, {u.x, u.y}, out.direction, solid_angle, du, dv)) {
-        return false;
+    ParticleAim from_here = aim; // turned as from the source's middle, which is about right
+    if (aim.window && look_at_box(from.position, target.bounds, from_here)) {
+        through_window(from_here, {u.x, u.y}, out.direction, solid_angle, du, dv);
+    } else {
+        through_cone(from.position, target.bounds, {u.x, u.y}, out.direction, solid_angle, du, dv);
     }
     const float cosine = glm::dot(from.normal, out.direction);
     if (!(cosine > 0.0F)) {
@@ -262,19 +263,49 @@ std::vector<ParticleSource> particle_sources(const DirectLight& direct, const Hi
     return out;
 }
 
-bool emit(const ParticleSource& source, const SpecularTarget& target, const Hierarchy& emitters, const RayScene& rays,
-          const vec4& u, Emission& out) {
+ParticleAim make_aim(const ParticleSource& source, const SpecularTarget& target) {
+    const auto box = corners(target.bounds);
+    const vec3 centre = target.bounds.centre();
+    if (source.leaves.empty() && source.light.light.kind == Light::Kind::Directional) {
+        ParticleAim out = smallest_window(source.light.axis, box, [&](const vec3& c, const vec3& t, const vec3& b) {
+            return vec2(glm::dot(c - centre, t), glm::dot(c - centre, b));
+        });
+        const float diagonal = target.bounds.diagonal(); // the disc's outer rays cross the target's depth aslant
+        const vec2 margin(sun_radius(source) * 0.5F * diagonal + 1e-6F * diagonal);
+        out.low -= margin;
+        out.high += margin;
+        return out;
+    }
+    const vec3 origin = source.leaves.empty() ? source.light.position : source.centre;
+    const vec3 to_centre = centre - origin;
+    const float distance = glm::length(to_centre);
+    ParticleAim out;
+    if (!(distance > 0.525F * target.bounds.diagonal())) {
+        return out;
+    }
+    out = smallest_window(to_centre / distance, box, [&](const vec3& c, const vec3& t, const vec3& b) {
+        const vec3 d = c - origin;
+        return vec2(glm::dot(d, t), glm::dot(d, b)) / std::max(glm::dot(d, to_centre / distance), 1e-6F);
+    });
+    out.window = look_at_box(origin, target.bounds, out);
+    return out;
+}
+
+bool emit(const ParticleSource& source, const SpecularTarget& target, const ParticleAim& aim, const Hierarchy& emitters,
+          const RayScene& rays, const vec4& u, Emission& out) {
     if (!source.leaves.empty()) {
-        return emit_area(source, target, emitters, rays, u, out);
+        return emit_area(source, target, aim, emitters, rays, u, out);
     }
     if (source.light.light.kind == Light::Kind::Directional) {
-        return emit_sun(source, target, rays, u, out);
+        return emit_sun(source, target, aim, rays, u, out);
     }
     float solid_angle = 0.0F;
     vec3 du;
     vec3 dv;
-    if (!aim(source.light.position, target.bounds, {u.x, u.y}, out.direction, solid_angle, du, dv)) {
-        return false;
+    if (aim.window) {
+        through_window(aim, {u.x, u.y}, out.direction, solid_angle, du, dv);
+    } else {
+        through_cone(source.light.position, target.bounds, {u.x, u.y}, out.direction, solid_angle, du, dv);
     }
     float shape = 1.0F;
     if (source.light.light.kind == Light::Kind::Spot) {

@@ -32,9 +32,20 @@ struct Emission {
 /// Sources of a scene: lamps and suns of `direct`, and the leaves of `emitters` (may be empty) by surface.
 std::vector<ParticleSource> particle_sources(const DirectLight& direct, const Hierarchy& emitters, const RayScene& rays);
 
+/// How a source sees a target's bounds: made once for a pair.
+struct ParticleAim {
+    vec3 axis{0.0F, 0.0F, 1.0F}; ///< unit, from the source towards the target
+    vec3 a{0.0F};                ///< across it, turned so that the bounds look small
+    vec3 b{0.0F};
+    vec2 low{0.0F}; ///< sun: metres across the axis about the target's centre; lamps: on the plane at distance 1
+    vec2 high{0.0F};
+    bool window = false; ///< false: from so close that directions are taken from a cone or from all round
+};
+ParticleAim make_aim(const ParticleSource& source, const SpecularTarget& target);
+
 /// A particle from four numbers in [0,1): the first two place it over the target's bounds as the source sees them, the
 /// others on the source. False where nothing goes that way (behind an emitter, outside a spot's cone).
-bool emit(const ParticleSource& source, const SpecularTarget& target, const Hierarchy& emitters, const RayScene& rays,
-          const vec4& u, Emission& out);
+bool emit(const ParticleSource& source, const SpecularTarget& target, const ParticleAim& aim, const Hierarchy& emitters,
+          const RayScene& rays, const vec4& u, Emission& out);
 
 } // namespace atrium

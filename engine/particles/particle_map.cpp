@@ -23,6 +23,12 @@ std::vector<Traced> trace(const RayScene& rays, const SpecularTargets& targets, 
     for (std::size_t i = 0; i < links.size(); ++i) {
         first[i + 1] = first[i] + links[i].count;
     }
+    std::vector<ParticleStream> streams(links.size());
+    for (std::uint32_t i = 0; i < links.size(); ++i) {
+        const ParticleLink& l = links[i];
+        streams[i] = {
+            &sources[l.source], l.target, i, l.key, l.count, make_aim(sources[l.source], targets.targets()[l.target])};
+    }
     std::vector<Traced> out(chunk_count(first.back(), kGrain));
     parallel_chunks(first.back(), kGrain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
         auto link = std::size_t(std::upper_bound(first.begin(), first.end(), begin) - first.begin()) - 1;
@@ -30,9 +36,8 @@ std::vector<Traced> trace(const RayScene& rays, const SpecularTargets& targets, 
             while (i >= first[link + 1]) {
                 ++link;
             }
-            const ParticleLink& l = links[link];
-            trace_particle(rays, targets, emitters, {&sources[l.source], l.target, std::uint32_t(link), l.key, l.count},
-                           std::uint32_t(i - first[link]), by_image, out[chunk].landings, out[chunk].energy);
+            trace_particle(rays, targets, emitters, streams[link], std::uint32_t(i - first[link]), by_image,
+                           out[chunk].landings, out[chunk].energy);
         }
     });
     return out;

@@ -16,13 +16,14 @@ constexpr std::uint32_t kLobeStream = 0x9E3779B9U; // apart from the stream that
 struct Beam {
     std::array<vec3, kPairs> p{};
     std::array<vec3, kPairs> d{};
+    std::size_t used = kPairs; ///< the others are zero
 };
 
 // Moves a beam on to the plane of a hit.
 void transfer(Beam& beam, const vec3& direction, float t, const vec3& normal) {
     const float cosine = glm::dot(direction, normal);
     const float inverse = std::abs(cosine) > 1e-4F ? 1.0F / cosine : 0.0F; // grazing: nothing sensible to say
-    for (std::size_t k = 0; k < kPairs; ++k) {
+    for (std::size_t k = 0; k < beam.used; ++k) {
         const vec3 q = beam.p[k] + beam.d[k] * t;
         beam.p[k] = q - direction * (glm::dot(q, normal) * inverse);
     }
@@ -83,7 +84,7 @@ void bend(Beam& beam, const RayScene& rays, const Hit& hit, const vec3& in, cons
         const vec3 h = out - in;
         const float length = glm::length(h);
         const vec3 n = length > 1e-6F ? h / length : way.shading;
-        for (std::size_t k = 0; k < kPairs; ++k) {
+        for (std::size_t k = 0; k < beam.used; ++k) {
             const vec3 dn = change.by(beam.p[k]);
             const float c = glm::dot(in, n);
             const float dc = glm::dot(beam.d[k], n) + glm::dot(in, dn);
@@ -100,7 +101,7 @@ void bend(Beam& beam, const RayScene& rays, const Hit& hit, const vec3& in, cons
             const float c = -glm::dot(in, n);
             const float ct = std::max(-glm::dot(out, n), 1e-3F);
             const float mu = eta * c - ct;
-            for (std::size_t k = 0; k < kPairs; ++k) {
+            for (std::size_t k = 0; k < beam.used; ++k) {
                 const vec3 dn = change.by(beam.p[k]);
                 const float dc = -glm::dot(beam.d[k], n) - glm::dot(in, dn);
                 const float dmu = (eta - eta * eta * c / ct) * dc;
@@ -108,10 +109,11 @@ void bend(Beam& beam, const RayScene& rays, const Hit& hit, const vec3& in, cons
             }
         }
     }
-    for (vec3& d : beam.d) {
-        d -= out * glm::dot(out, d);
+    for (std::size_t k = 0; k < beam.used; ++k) {
+        beam.d[k] -= out * glm::dot(out, beam.d[k]);
     }
     if (way.spread > 0.0F) {
+        beam.used = kPairs;
         vec3 t;
         vec3 b;
         make_frame(out, t, b);
@@ -134,7 +136,7 @@ void footprint(const Beam& beam, const vec3& normal, std::uint32_t count, Landin
     vec3 b;
     make_frame(normal, t, b);
     float xx = 0.0F, xy = 0.0F, yy = 0.0F;
-    for (std::size_t k = 0; k < kPairs; ++k) {
+    for (std::size_t k = 0; k < beam.used; ++k) {
         const float weight = k < 2 ? own : blur * blur;
         const vec2 v(glm::dot(beam.p[k], t), glm::dot(beam.p[k], b));
         xx += weight * v.x * v.x;
@@ -149,9 +151,13 @@ void footprint(const Beam& beam, const vec3& normal, std::uint32_t count, Landin
     const float spread = std::sqrt(std::max(0.25F * (xx - yy) * (xx - yy) + xy * xy, 0.0F));
     const float high = std::max(mean + spread, 0.0F);
     const float low = std::max(mean - spread, 0.0F);
-    const float angle = 0.5F * std::atan2(2.0F * xy, xx - yy);
-    const vec3 major = t * std::cos(angle) + b * std::sin(angle);
-    const vec3 minor = b * std::cos(angle) - t * std::sin(angle);
+    // The larger of the two columns of (M - low) that are parallel to the major axis.
+    const vec2 p(xx - low, xy), q(xy, yy - low);
+    const vec2 along = glm::dot(p, p) >= glm::dot(q, q) ? p : q;
+    const float length = glm::length(along);
+    const vec2 e = length > 0.0F ? along / length : vec2(1.0F, 0.0F);
+    const vec3 major = t * e.x + b * e.y;
+    const vec3 minor = b * e.x - t * e.y;
     out.axis_a = major * std::sqrt(high);
     out.axis_b = minor * std::sqrt(low);
 }
@@ -173,7 +179,8 @@ void trace_particle(const RayScene& rays, const SpecularTargets& targets, const 
     const vec2 a = sobol_owen2(index, 0, seed);
     const vec2 b = sobol_owen2(index, 2, seed);
     Emission emission;
-    if (!emit(*stream.source, targets.targets()[stream.target], emitters, rays, {a.x, a.y, b.x, b.y}, emission)) {
+    if (!emit(*stream.source, targets.targets()[stream.target], stream.aim, emitters, rays, {a.x, a.y, b.x, b.y},
+              emission)) {
         return;
     }
     LightWay way;
@@ -189,6 +196,7 @@ void trace_particle(const RayScene& rays, const SpecularTargets& targets, const 
         beam.p[k] = emission.d_origin[k];
         beam.d[k] = emission.d_direction[k];
     }
+    beam.used = emission.d_direction[2] == vec3(0.0F) && emission.d_direction[3] == vec3(0.0F) ? 2 : 4;
     const auto power = [&](const Rgb& through) { return double(luminance(through * stream.source->radiance)); };
     bool imaged = false; // so far the chain is one that mirror images carry
     for (unsigned met = 0; met < kMostSurfaces; ++met) {

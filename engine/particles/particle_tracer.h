@@ -52,14 +52,15 @@ struct ParticleStream {
     std::uint32_t link = 0;
     std::uint64_t key = 0;
     std::uint32_t count = 0; ///< particles in the stream
+    ParticleAim aim;
 };
 
 /// True where a chain whose only bend is at this hit is carried by mirror images of the light.
 using CarriedByImage = std::function<bool(const Hit& hit)>;
 
 /// Traces particle `index` of a stream. A particle counts when the first thing that bends it is its own target (clear panes
-/// are passed); then on until it is absorbed, escapes, or has landed on everything that receives it. `path` (may be null) gets its rays as they were traced,
-/// tmax = where each ended. Safe from any thread.
+/// are passed); then on until it is absorbed, escapes, or has landed on everything that receives it. `path` (may be null)
+/// gets its rays as they were traced, tmax = where each ended. Safe from any thread.
 void trace_particle(const RayScene& rays, const SpecularTargets& targets, const Hierarchy& emitters,
                     const ParticleStream& stream, std::uint32_t index, const CarriedByImage& by_image,
                     std::vector<Landing>& landings, ParticleEnergy& energy, std::vector<Ray>* path = nullptr);

@@ -35,9 +35,11 @@ Figures measure(const Scene& scene, std::uint32_t count) {
     const auto trace_all = [&](std::vector<Ray>* into) {
         for (std::uint32_t l = 0; l < map.links().size(); ++l) {
             const ParticleLink& link = map.links()[l];
+            const ParticleSource& source = map.sources()[link.source];
+            const ParticleStream stream{&source,  link.target, l,
+                                        link.key, link.count,  make_aim(source, targets.targets()[link.target])};
             for (std::uint32_t k = 0; k < link.count; ++k) {
-                trace_particle(rays, targets, {}, {&map.sources()[link.source], link.target, l, link.key, link.count}, k, {},
-                               landings, energy, into);
+                trace_particle(rays, targets, {}, stream, k, {}, landings, energy, into);
             }
             landings.clear();
         }
