@@ -119,14 +119,10 @@ void through_cone(const vec3& origin, const Box3& bounds, const vec2& u, vec3& d
     dv = (at({u.x, u.y + step.y}) - direction) / step.y;
 }
 
-float sun_radius(const ParticleSource& source) {
-    return std::tan(float(radians_from_degrees(0.5 * source.light.light.angular_diameter_degrees)));
-}
-
 bool emit_sun(const ParticleSource& source, const SpecularTarget& target, const ParticleAim& w, const RayScene& rays,
               const vec4& u, Emission& out) {
     const vec3 axis = source.light.axis;
-    const float radius = sun_radius(source);
+    const float radius = source.sun_radius;
     const vec3 centre = target.bounds.centre();
     const vec2 size = w.high - w.low;
     vec3 t;
@@ -228,6 +224,10 @@ std::vector<ParticleSource> particle_sources(const DirectLight& direct, const Hi
         ParticleSource source;
         source.light = light;
         source.radiance = light.light.color * light.light.intensity;
+        if (light.light.kind == Light::Kind::Directional) {
+            source.sun_radius = std::tan(float(radians_from_degrees(0.5 * light.light.angular_diameter_degrees)));
+            source.has_size = source.sun_radius > 0.0F;
+        }
         source.key = hash_combine(0x1A3BULL, out.size());
         out.push_back(std::move(source));
     }
@@ -256,6 +256,7 @@ std::vector<ParticleSource> particle_sources(const DirectLight& direct, const Hi
             total += w;
         }
         source.centre = vec3(centre / total);
+        source.has_size = true;
         source.extent = spread_axes(points[surface], source.centre);
         source.key = hash_combine(0xA4EAULL, surface);
         out.push_back(std::move(source));
@@ -271,7 +272,7 @@ ParticleAim make_aim(const ParticleSource& source, const SpecularTarget& target)
             return vec2(glm::dot(c - centre, t), glm::dot(c - centre, b));
         });
         const float diagonal = target.bounds.diagonal(); // the disc's outer rays cross the target's depth aslant
-        const vec2 margin(sun_radius(source) * 0.5F * diagonal + 1e-6F * diagonal);
+        const vec2 margin(source.sun_radius * 0.5F * diagonal + 1e-6F * diagonal);
         out.low -= margin;
         out.high += margin;
         return out;

@@ -17,6 +17,8 @@ struct ParticleSource {
     vec3 centre{0.0F};                 ///< of an area source's light
     std::array<vec3, 2> extent{};      ///< its two longest axes, as far as a uniform strip of equal spread reaches
     Rgb radiance{1.0F};                ///< lamps: intensity (cd) or normal irradiance (lux); emitters: 1
+    float sun_radius = 0.0F;           ///< tangent of the angular radius
+    bool has_size = false;             ///< false: a point or a parallel beam, which the last two numbers do not matter to
     std::uint64_t key = 0;             ///< seeds its streams; from what it is, not from where it is stored
 };
 

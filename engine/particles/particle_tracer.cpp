@@ -177,7 +177,7 @@ void trace_particle(const RayScene& rays, const SpecularTargets& targets, const 
                     std::vector<Landing>& landings, ParticleEnergy& energy, std::vector<Ray>* path) {
     const auto seed = std::uint32_t(stream.key);
     const vec2 a = sobol_owen2(index, 0, seed);
-    const vec2 b = sobol_owen2(index, 2, seed);
+    const vec2 b = stream.source->has_size ? sobol_owen2(index, 2, seed) : vec2(0.5F);
     Emission emission;
     if (!emit(*stream.source, targets.targets()[stream.target], stream.aim, emitters, rays, {a.x, a.y, b.x, b.y},
               emission)) {
@@ -226,8 +226,16 @@ void trace_particle(const RayScene& rays, const SpecularTargets& targets, const 
                 continue;
             }
             // The choices at the first bend are stratified over the stream; later ones are hashed.
-            const vec2 lobe = sobol_owen2(index, 0, seed ^ kLobeStream);
-            const vec3 u(lobe.x, lobe.y, sobol_owen(index, 2, seed ^ kLobeStream));
+            const Material& m = rays.material(hit.surface);
+            vec3 u(0.5F);
+            if (m.roughness >= kMirrorRoughness) {
+                const vec2 lobe = sobol_owen2(index, 0, seed ^ kLobeStream);
+                u.x = lobe.x;
+                u.y = lobe.y;
+            }
+            if (m.transmission > 0.0F) {
+                u.z = sobol_owen(index, 2, seed ^ kLobeStream);
+            }
             const bool goes_on = bend_on(rays, hit, way, u, how);
             energy.emitted += arrived;
             energy.absorbed += arrived - (goes_on ? power(way.through) : 0.0);
