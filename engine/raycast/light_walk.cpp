@@ -24,6 +24,7 @@ SpecularPoint specular_point(const RayScene& rays, const Hit& hit, const vec3& d
     cover = at.material->alpha_mode == Material::Alpha::Blend ? std::clamp(color.a, 0.0F, 1.0F) : 1.0F;
     at.base_color = Rgb(color);
     at.front = hit.front;
+    at.slab = rays.surfaces()[hit.surface].slab;
     at.geometric = hit.front ? hit.geometric_normal : -hit.geometric_normal;
     const vec3 smooth = rays.shading_normal(hit);
     at.normal = hit.front ? smooth : -smooth;
@@ -90,7 +91,7 @@ bool bend_on(const RayScene& rays, const Hit& hit, LightWay& way, const vec3& u,
     const SpecularPoint at = specular_point(rays, hit, way.ray.direction, cover);
     const SpecularSample s = sample_specular(at, way.ray.direction, u);
     Rgb weight = s.weight * cover;
-    if (!hit.front && m.transmission > 0.0F && m.thickness > 0.0F) {
+    if (!hit.front && !at.slab && m.transmission > 0.0F && m.thickness > 0.0F) {
         weight *= absorption(m, hit.t); // the ray has just crossed the solid
     }
     how = {hit_position(rays, hit), at.geometric, at.normal, s.spread, false, s.transmitted};

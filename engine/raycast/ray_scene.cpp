@@ -5,6 +5,7 @@
 #include "engine/geometry/surface_charts.h"
 #include "engine/geometry/tessellate.h"
 #include "engine/optics/specular.h"
+#include "engine/raycast/slabs.h"
 #include "engine/scene/texture_sampling.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace atrium {
 namespace {
 
 constexpr unsigned kOpaqueMask = 1; // stops light
-constexpr unsigned kFilterMask = 2; // glass, cut-outs, blended surfaces: some light goes through
+constexpr unsigned kFilterMask = 2; // clear panes, cut-outs, blended surfaces: some light goes through
 constexpr int kMaxCrossings = 64;   // panes and leaves in a row; beyond it the light is taken as absorbed
 
 // Ends of a visibility segment are pulled in by this, metres: below any wall's thickness, above float rounding at 100 m. In
@@ -31,12 +32,26 @@ float end_offset(const vec3& p) {
 
 bool lets_light_through(const Material& m) { return m.transmission > 0.0F || m.alpha_mode != Material::Alpha::Opaque; }
 
-// One crossing of a glass surface without bending. Thin: both faces with their inner reflections, (1-F)/(1+F). Solid: one
-// face; the absorption between two faces is added by the caller's caller (particles), here the tint stands for it.
-Rgb glass_transmittance(const Material& m, const Rgb& tint, float cos_i) {
-    const float f = fresnel_dielectric(cos_i, std::max(m.ior, 1.0F));
-    const float through = m.thickness > 0.0F ? 1.0F - f : (1.0F - f) / (1.0F + f);
-    return tint * (through * m.transmitted_share());
+// Light goes straight on through the glass itself, without its holes. Diffuse materials that let some light through are thin
+// cloth or paper, whatever their thickness.
+bool glass_is_straight(const Material& m, const RaySurface& s) {
+    return m.transmission > 0.0F && (classify(m) == MaterialKind::Diffuse || is_clear_sheet(m) || s.slab);
+}
+
+bool filters_light(const Material& m, const RaySurface& s) {
+    return m.alpha_mode != Material::Alpha::Opaque || glass_is_straight(m, s);
+}
+
+// One crossing of a glass surface without bending. Thin: both faces with their inner reflections, (1-F)/(1+F). Slab: one
+// face, and half of what its inside absorbs along the bent way. The angle within a slab counts as that outside.
+Rgb glass_transmittance(const Material& m, const RaySurface& s, const Rgb& tint, float cos_i) {
+    const float ior = std::max(m.ior, 1.0F);
+    const float f = fresnel_dielectric(cos_i, ior);
+    if (!s.slab) {
+        return tint * ((m.thickness > 0.0F ? 1.0F - f : (1.0F - f) / (1.0F + f)) * m.transmitted_share());
+    }
+    const float cos_t = std::sqrt(std::max(1.0F - (1.0F - cos_i * cos_i) / (ior * ior), 1e-4F));
+    return tint * absorption(m, 0.5F * s.slab_thickness / cos_t) * ((1.0F - f) * m.transmitted_share());
 }
 
 struct alignas(64) Counter {
@@ -161,10 +176,14 @@ struct RayScene::Impl {
                 }
                 surface.back_side = !it->second;
             }
+            if (classify(*material) == MaterialKind::DielectricSolid && material->roughness < kMirrorRoughness) {
+                surface.slab_thickness = slab_thickness(surface);
+                surface.slab = surface.slab_thickness > 0.0F;
+            }
             surface.pane = is_pane(surface, *material);
             triangles += surface.triangles.size();
             materials.push_back(material);
-            any_filter = any_filter || lets_light_through(*material);
+            any_filter = any_filter || filters_light(*material, surface);
             surfaces.push_back(std::move(surface));
         }
     }
@@ -172,7 +191,7 @@ struct RayScene::Impl {
     static bool is_pane(const RaySurface& surface, const Material& material) {
         constexpr std::size_t kMostTriangles = 32; // more is a curved or ornate thing, not a window
         constexpr float kLeastArea = 0.1F;         // square metres
-        if (classify(material) != MaterialKind::DielectricThin || surface.triangles.size() > kMostTriangles) {
+        if (!(is_clear_sheet(material) || surface.slab) || surface.triangles.size() > kMostTriangles) {
             return false;
         }
         float area = 0.0F;
@@ -209,10 +228,11 @@ struct RayScene::Impl {
             auto* indices = static_cast<uvec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                                         sizeof(uvec3), s.triangles.size()));
             std::copy(s.triangles.begin(), s.triangles.end(), indices);
-            rtcSetGeometryMask(geometry, lets_light_through(*materials[i]) ? kFilterMask : kOpaqueMask);
+            const bool filtering = filters_light(*materials[i], s);
+            rtcSetGeometryMask(geometry, filtering ? kFilterMask : kOpaqueMask);
             rtcCommitGeometry(geometry);
             rtcAttachGeometryByID(embree, geometry, unsigned(i));
-            if (lets_light_through(*materials[i])) {
+            if (filtering) {
                 rtcAttachGeometryByID(filters, geometry, unsigned(i));
             }
             rtcReleaseGeometry(geometry);
@@ -286,8 +306,9 @@ struct RayScene::Impl {
         const Material& m = *materials[h.surface];
         const vec4 color = self.base_color(h.surface, h.triangle, h.barycentric);
         Rgb through(0.0F);
-        if (m.transmission > 0.0F && m.thickness <= 0.0F && m.roughness < kMirrorRoughness) {
-            through = glass_transmittance(m, Rgb(color), std::abs(glm::dot(h.geometric_normal, direction)));
+        if (glass_is_straight(m, surfaces[h.surface])) {
+            const float cosine = std::abs(glm::dot(h.geometric_normal, direction));
+            through = glass_transmittance(m, surfaces[h.surface], Rgb(color), cosine);
         }
         if (m.alpha_mode == Material::Alpha::Mask) {
             return color.a < m.alpha_cutoff ? Rgb(1.0F) : through;
@@ -449,7 +470,8 @@ Rgb RayScene::transmittance(const Ray& ray) const {
 }
 
 Rgb RayScene::straight_through(const Hit& hit, const vec3& direction) const {
-    return lets_light_through(*impl_->materials[hit.surface]) ? impl_->filter(*this, hit, direction) : Rgb(0.0F);
+    const bool filtering = filters_light(*impl_->materials[hit.surface], impl_->surfaces[hit.surface]);
+    return filtering ? impl_->filter(*this, hit, direction) : Rgb(0.0F);
 }
 
 vec4 RayScene::base_color(std::uint32_t surface, std::uint32_t triangle, const vec2& barycentric) const {

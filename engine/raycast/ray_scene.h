@@ -21,11 +21,14 @@ struct RaySurface {
     std::shared_ptr<const std::vector<vec3>> positions; ///< mesh->positions in engine coordinates, shared by parts
     std::shared_ptr<const std::vector<vec2>> domain;    ///< curved primitives: see curved_domain(); else null
     std::vector<uvec3> triangles; ///< vertex indices, counter-clockwise from the front; degenerate ones are left out
-    bool pane = false;      ///< a sheet of thin glass large enough to be a window: the sky is looked for through it by name
-    bool back_side = false; ///< the back reflects: double-sided material on a mesh that bounds no solid
-    dmat4 to_engine{1.0};   ///< local to engine coordinates
-    dmat3 normal_matrix{1.0}; ///< inverse transpose of its linear part
-    bool mirrored = false;    ///< negative determinant: winding (and so the front side) is flipped back
+    bool pane =
+        false; ///< a sheet or slab of clear glass large enough to be a window: the sky is looked for through it by name
+    bool slab = false; ///< solid clear glass that bounds flat panes: light crosses it straight on, as a clear sheet
+    float slab_thickness = 0.0F; ///< metres; 0 where it is none
+    bool back_side = false;      ///< the back reflects: double-sided material on a mesh that bounds no solid
+    dmat4 to_engine{1.0};        ///< local to engine coordinates
+    dmat3 normal_matrix{1.0};    ///< inverse transpose of its linear part
+    bool mirrored = false;       ///< negative determinant: winding (and so the front side) is flipped back
 };
 
 struct Ray {
@@ -78,7 +81,8 @@ public:
     /// a length proportional to the rounding error there, so that the surfaces they lie on do not count.
     [[nodiscard]] bool occluded(const vec3& from, const vec3& to) const;
     /// Share of light that goes straight from one point to the other: 0 behind opaque surfaces, 1 in the open, else the
-    /// product of the transmittances of the glass panes crossed (not bent: refraction is the particles' business).
+    /// product of the transmittances of the glass panes crossed. Glass that bends or scatters light (solids but slabs,
+    /// frosted glass) counts as opaque: what it sends on is engine/optics' business.
     [[nodiscard]] Rgb transmittance(const vec3& from, const vec3& to) const;
     /// The same along a ray that never ends (sun, sky).
     [[nodiscard]] Rgb transmittance_to_infinity(const vec3& from, const vec3& direction) const;
@@ -88,7 +92,8 @@ public:
     /// The same along a ray from its very origin to tmax; nothing is pulled in, so the caller keeps clear of the surfaces
     /// that the ends lie on.
     [[nodiscard]] Rgb transmittance(const Ray& ray) const;
-    /// Share of light that goes straight on through the surface of a hit (0 where it is opaque): glass, holes, blending.
+    /// Share of light that goes straight on through the surface of a hit (0 where it is opaque): clear sheets and slabs,
+    /// each face by itself, thin materials that are mostly diffuse, holes, blending.
     [[nodiscard]] Rgb straight_through(const Hit& hit, const vec3& direction) const;
 
     /// Material of a surface; the default material where it has none.

@@ -233,6 +233,7 @@ TEST(Reference, GlassTakesItsShare) {
     Material glass;
     glass.base_color = Rgb(1.0F, 0.5F, 1.0F);
     glass.transmission = 1.0F;
+    glass.roughness = 0.0F;
     const MaterialId pane = scene.materials.insert(glass);
     test::add_rectangle(scene, "pane", {0, 0.01, 0}, {0, 1, 0}, {1, 0, 0}, 1000, 1000, pane);
     scene.environment.sky_radiance = Rgb(100.0F);

@@ -25,6 +25,7 @@ Scene two_rooms(Wall wall) {
     Material both;
     both.double_sided = true;
     both.transmission = wall == Wall::Glass ? 1.0F : 0.0F;
+    both.roughness = wall == Wall::Glass ? 0.0F : 0.6F;
     const MaterialId material = scene.materials.insert(both);
     if (wall != Wall::Missing) {
         const NodeId id = add_rectangle(scene, "wall", {4, 1.5, 2}, {1, 0, 0}, {0, 0, 1}, 4, 3, material);

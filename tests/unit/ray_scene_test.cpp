@@ -106,6 +106,7 @@ TEST(RayScene, ThinGlassTransmittanceFollowsFresnel) {
         Material glass;
         glass.base_color = Rgb(1.0F, 0.5F, 0.25F);
         glass.transmission = 1.0F;
+        glass.roughness = 0.0F;
         glass.ior = ior;
         add_rectangle(scene, "pane", {0, 0, 0}, {0, 0, 1}, {1, 0, 0}, 100, 100, scene.materials.insert(glass));
         const RayScene rays(scene);
@@ -129,6 +130,7 @@ TEST(RayScene, PanesInARowMultiplyAndAWallBehindThemStops) {
     Material glass;
     glass.base_color = Rgb(0.9F);
     glass.transmission = 1.0F;
+    glass.roughness = 0.0F;
     const MaterialId m = scene.materials.insert(glass);
     for (int i = 0; i < 5; ++i) {
         add_rectangle(scene, "pane", {0, 0, 0.1 * i}, {0, 0, 1}, {1, 0, 0}, 4, 4, m);
