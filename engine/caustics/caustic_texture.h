@@ -13,8 +13,8 @@
 namespace atrium {
 
 /// Immutable once built. Texels are cells of the rectangle [low, high] of the surface's chart space (tiles, see
-/// SurfaceCharts); values lie at their middles and fall to zero within half a texel outside the rectangle, so textures can
-/// be added up without a seam.
+/// SurfaceCharts), within one chart. The outermost ring of texels is black where the rectangle ends within the chart, so
+/// textures are added up without a seam; on the chart's own edge it is not, so that light goes on up to the edge.
 struct CausticTexture {
     vec2 low{0.0F};
     vec2 high{0.0F};
@@ -22,7 +22,8 @@ struct CausticTexture {
     std::uint32_t height = 0;
     std::vector<Rgb> image; ///< irradiance, lux, row by row from low
 
-    /// Irradiance at chart-space coordinates, lux: bilinear between texel middles, with a border of zeros.
+    /// Irradiance at chart-space coordinates, lux: bilinear between texel middles, clamped to them at the rectangle's edge;
+    /// 0 outside. Its integral is the sum of texels times their areas.
     [[nodiscard]] Rgb irradiance(const vec2& uv) const;
     [[nodiscard]] std::size_t memory_bytes() const { return sizeof(*this) + image.size() * sizeof(Rgb); }
     friend bool operator==(const CausticTexture&, const CausticTexture&) = default;

@@ -1,0 +1,392 @@
+#include "engine/caustics/caustic_builder.h"
+
+#include "engine/base/parallel.h"
+#include "engine/caustics/choice.h"
+#include "engine/caustics/reconstruction.h"
+#include "engine/caustics/resolution.h"
+#include "engine/caustics/restriction.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace atrium {
+namespace {
+
+constexpr std::size_t kMostBoxes = 16; // of a chart
+constexpr double kBoxWaste = 1.2;      // two boxes become one when it is hardly larger than both
+constexpr int kMostTexels = 8192;      // a side of a chart's grid
+constexpr float kLongestAxis = 0.2F;   // of a kernel, as a share of its texture
+constexpr double kManyPerTexel = 8.0;  // landings a texel from which the least kernel may shrink
+constexpr float kLeastOfMany = 0.3F;   // texels: what it shrinks to
+constexpr std::size_t kGrain = 4096;
+
+/// One chart, its landings and what is decided about them.
+class ChartBuild {
+public:
+    ChartBuild(const ChartDomain& domain, std::span<const CausticLanding> landings, std::vector<std::uint32_t> mine,
+               const SurfaceCharts& charts, std::span<const vec3> positions, std::span<const uvec3> triangles,
+               const CausticSettings& settings, CausticSide& out)
+        : domain_(domain), landings_(landings), mine_(std::move(mine)), charts_(charts), positions_(positions),
+          triangles_(triangles), settings_(settings), out_(out) {}
+
+    void run(double texel_share) {
+        record_.chart = domain_.chart;
+        record_.particles = mine_.size();
+        record_.extent = domain_.extent;
+        record_.threshold = settings_.paper ? settings_.eta : settings_.least_dispersion;
+        std::vector<WeightedPoint> points;
+        points.reserve(mine_.size());
+        for (const std::uint32_t i : mine_) {
+            points.push_back({landings_[i].uv, double(luminance(landings_[i].power))});
+        }
+        const Choice choice = choose_texture(points, domain_, charts_, positions_, triangles_, settings_);
+        record_.dispersion = float(choice.dispersion);
+        record_.decision = choice.decision;
+        if (settings_.paper) {
+            paper();
+        } else if (record_.decision == CausticRecord::Decision::Texture) {
+            by_footprints(texel_share);
+        }
+        if (record_.decision != CausticRecord::Decision::Texture) {
+            left_ = mine_;
+        }
+        for (const std::uint32_t i : left_) {
+            record_.power_mesh += luminance(landings_[i].power);
+        }
+        out_.on_mesh.insert(out_.on_mesh.end(), left_.begin(), left_.end());
+        out_.records.push_back(std::move(record_));
+    }
+
+private:
+    [[nodiscard]] vec2 size() const { return domain_.high - domain_.low; }
+
+    // A rectangle of whole texels of the chart's grid in chart space.
+    [[nodiscard]] TexelGrid grid_of(const CellBox& box, int width, int height) const {
+        const vec2 texel = size() / vec2(float(width), float(height));
+        const vec2 low = domain_.low + texel * vec2(float(box.x0), float(box.y0));
+        const vec2 high = domain_.low + texel * vec2(float(box.x1), float(box.y1));
+        return make_grid(domain_, charts_, positions_, triangles_, low, high, std::uint32_t(box.x1 - box.x0),
+                         std::uint32_t(box.y1 - box.y0));
+    }
+
+    void keep(const TexelGrid& grid, std::vector<Rgb> image) {
+        fill_around(image, grid);
+        auto texture = std::make_shared<CausticTexture>();
+        texture->low = grid.low;
+        texture->high = grid.high;
+        texture->width = grid.width;
+        texture->height = grid.height;
+        texture->image = std::move(image);
+        record_.bytes += texture->memory_bytes();
+        const vec2 a = (grid.low - domain_.low) / size();
+        const vec2 b = (grid.high - domain_.low) / size();
+        record_.boxes.emplace_back(a.x, a.y, b.x, b.y);
+        out_.textures.push_back(std::move(texture));
+    }
+
+    // ---- default: kernels on footprints, boxes around them ----
+
+    void by_footprints(double texel_share) {
+        std::vector<std::pair<float, float>> minor;
+        const vec2 metres = domain_.extent / size();
+        for (const std::uint32_t i : mine_) {
+            const CausticLanding& l = landings_[i];
+            const vec2 a = l.axis_a * metres, b = l.axis_b * metres;
+            const float xx = a.x * a.x + b.x * b.x, xy = a.x * a.y + b.x * b.y, yy = a.y * a.y + b.y * b.y;
+            const float low = 0.5F * (xx + yy) - std::sqrt(std::max(0.25F * (xx - yy) * (xx - yy) + xy * xy, 0.0F));
+            if (low > 0.0F && std::isfinite(low)) {
+                minor.emplace_back(std::sqrt(low), luminance(l.power));
+            }
+        }
+        const auto budget = std::uint32_t(std::max(texel_share * double(settings_.most_texels), 256.0));
+        const bool known = !minor.empty();
+        float edge = footprint_resolution(std::move(minor), 0.0, budget, settings_.mesh_edge);
+        if (!known) {
+            edge = std::min(edge, float(std::sqrt(domain_.area / double(mine_.size()))));
+        }
+        for (int attempt = 0; attempt < 8; ++attempt) {
+            const auto side = [&](float extent) { return std::clamp(int(std::ceil(extent / edge)), 1, kMostTexels); };
+            const int width = side(domain_.extent.x), height = side(domain_.extent.y);
+            const std::vector<CellBox> boxes = boxes_at(width, height);
+            double texels = 0.0;
+            for (const CellBox& box : boxes) {
+                texels += box.area();
+            }
+            if (texels <= double(budget) || attempt == 7) {
+                record_.width = std::uint32_t(width);
+                record_.height = std::uint32_t(height);
+                record_.why = fmt::format("texels of {:.1f} mm: {}", 1000.0 * double(edge),
+                                          attempt > 0 ? "what the memory for textures allows"
+                                                      : "half the median width of the particles' footprints");
+                fill(boxes, width, height);
+                return;
+            }
+            edge *= float(std::sqrt(texels / double(budget)) * 1.02);
+        }
+    }
+
+    // Kernel of a landing on the chart's grid: bounds, texels.
+    [[nodiscard]] CellBox reach(const CausticLanding& l, int width, int height, float unknown) const {
+        const vec2 per_tile = vec2(float(width), float(height)) / size();
+        const vec2 at = (l.uv - domain_.low) * per_tile;
+        const vec2 a = l.axis_a * per_tile, b = l.axis_b * per_tile;
+        vec2 r(std::sqrt(a.x * a.x + b.x * b.x + 1.0F), std::sqrt(a.y * a.y + b.y * b.y + 1.0F));
+        if (!is_finite(r) || !(glm::dot(a, a) + glm::dot(b, b) > 0.0F)) {
+            r = vec2(unknown + 1.0F);
+        }
+        r = glm::min(r, vec2(kLongestAxis * float(width) + 1.0F, kLongestAxis * float(height) + 1.0F));
+        return {std::max(int(std::floor(at.x - r.x)), 0), std::max(int(std::floor(at.y - r.y)), 0),
+                std::min(int(std::ceil(at.x + r.x)), width), std::min(int(std::ceil(at.y + r.y)), height)};
+    }
+
+    // Boxes of whole texels around what is lit. Cells of a few texels decide; what lies in cells darker than a share of the
+    // brightest is left to the mesh unless a box holds it anyway.
+    [[nodiscard]] std::vector<CellBox> boxes_at(int width, int height) const {
+        const int cell = std::max({4, (width + 511) / 512, (height + 511) / 512});
+        const int cw = (width + cell - 1) / cell, ch = (height + cell - 1) / cell;
+        std::vector<double> power(std::size_t(cw) * std::size_t(ch), 0.0);
+        const vec2 per_tile = vec2(float(width), float(height)) / size() / float(cell);
+        const auto cell_of = [&](const CausticLanding& l) {
+            const vec2 at = (l.uv - domain_.low) * per_tile;
+            const int x = std::clamp(int(at.x), 0, cw - 1), y = std::clamp(int(at.y), 0, ch - 1);
+            return std::size_t(y) * std::size_t(cw) + std::size_t(x);
+        };
+        for (const std::uint32_t i : mine_) {
+            power[cell_of(landings_[i])] += luminance(landings_[i].power);
+        }
+        const double dark = 0.25 * double(settings_.restriction) * *std::max_element(power.begin(), power.end());
+        std::vector<std::uint8_t> lit(power.size(), 0);
+        for (const std::uint32_t i : mine_) {
+            if (power[cell_of(landings_[i])] < dark) {
+                continue;
+            }
+            const CellBox r = reach(landings_[i], width, height, float(cell));
+            for (int y = r.y0 / cell; y < std::min((r.y1 + cell - 1) / cell, ch); ++y) {
+                for (int x = r.x0 / cell; x < std::min((r.x1 + cell - 1) / cell, cw); ++x) {
+                    lit[std::size_t(y) * std::size_t(cw) + std::size_t(x)] = 1;
+                }
+            }
+        }
+        std::vector<CellBox> boxes = component_boxes(lit, cw, ch);
+        constexpr std::size_t kTooMany = 128; // merging pairs of thousands of specks would take long
+        if (boxes.size() > kTooMany) {
+            std::nth_element(boxes.begin(), boxes.begin() + kTooMany, boxes.end(),
+                             [](const CellBox& a, const CellBox& b) { return a.area() > b.area(); });
+            CellBox rest = boxes[kTooMany];
+            for (std::size_t i = kTooMany; i < boxes.size(); ++i) {
+                rest = united(rest, boxes[i]);
+            }
+            boxes.resize(kTooMany);
+            boxes.push_back(rest);
+        }
+        boxes = merge_boxes(std::move(boxes), kBoxWaste, kMostBoxes);
+        for (CellBox& b : boxes) { // a ring of texels that stays black
+            b = {std::max(b.x0 * cell - 1, 0), std::max(b.y0 * cell - 1, 0), std::min(b.x1 * cell + 1, width),
+                 std::min(b.y1 * cell + 1, height)};
+        }
+        return merge_boxes(std::move(boxes), 0.0, kMostBoxes); // rings may have met
+    }
+
+    void fill(const std::vector<CellBox>& boxes, int width, int height) {
+        std::vector<std::uint32_t> of_box(mine_.size(), std::uint32_t(boxes.size()));
+        std::vector<std::size_t> count(boxes.size() + 1, 0);
+        const vec2 per_tile = vec2(float(width), float(height)) / size();
+        for (std::size_t k = 0; k < mine_.size(); ++k) {
+            const vec2 at = (landings_[mine_[k]].uv - domain_.low) * per_tile;
+            const int x = std::clamp(int(at.x), 0, width - 1), y = std::clamp(int(at.y), 0, height - 1);
+            for (std::uint32_t b = 0; b < boxes.size(); ++b) {
+                if (boxes[b].contains(x, y)) {
+                    of_box[k] = b;
+                    break;
+                }
+            }
+            ++count[of_box[k]];
+        }
+        for (std::uint32_t b = 0; b < boxes.size(); ++b) {
+            if (count[b] < settings_.least_particles) {
+                std::replace(of_box.begin(), of_box.end(), b, std::uint32_t(boxes.size()));
+                continue;
+            }
+            const CellBox& box = boxes[b];
+            const TexelGrid grid = grid_of(box, width, height);
+            const std::array<int, 2> first{box.x0 > 0 ? 1 : 0, box.y0 > 0 ? 1 : 0};
+            const std::array<int, 2> last{int(grid.width) - (box.x1 < width ? 1 : 0),
+                                          int(grid.height) - (box.y1 < height ? 1 : 0)};
+            KernelLimits limits;
+            const double per_texel = double(count[b]) / double(grid.size());
+            limits.least = per_texel > kManyPerTexel ? kLeastOfMany : limits.least;
+            limits.unknown = std::max(1.5F * float(std::sqrt(1.0 / per_texel)), limits.least);
+            limits.most = std::max(kLongestAxis * float(std::max(width, height)), 2.0F);
+            CausticAccumulator sums(grid.size());
+            std::vector<std::uint8_t> lost(mine_.size(), 0);
+            parallel_chunks(mine_.size(), kGrain, [&](std::size_t begin, std::size_t end, std::size_t) {
+                for (std::size_t k = begin; k < end; ++k) {
+                    if (of_box[k] == b) {
+                        lost[k] = splat(landings_[mine_[k]], grid, first, last, limits, sums) ? 0 : 1;
+                    }
+                }
+            });
+            for (std::size_t k = 0; k < mine_.size(); ++k) {
+                if (of_box[k] == b && lost[k] == 0) {
+                    record_.power_texture += luminance(landings_[mine_[k]].power);
+                } else if (of_box[k] == b) {
+                    of_box[k] = std::uint32_t(boxes.size());
+                }
+            }
+            keep(grid, sums.image());
+        }
+        for (std::size_t k = 0; k < mine_.size(); ++k) {
+            if (of_box[k] == boxes.size()) {
+                left_.push_back(mine_[k]);
+            }
+        }
+        if (record_.boxes.empty()) {
+            record_.decision = CausticRecord::Decision::TooFew;
+        }
+    }
+
+    // ---- the algorithms of 2001 ----
+
+    [[nodiscard]] std::vector<Rgb> histogram(const TexelGrid& grid, const std::vector<std::uint32_t>& which) const {
+        CausticAccumulator sums(grid.size());
+        for (const std::uint32_t i : which) {
+            const std::size_t texel = grid.texel_at(landings_[i].uv);
+            if (grid.area[texel] > 0.0) {
+                sums.add(texel, dvec3(landings_[i].power) / grid.area[texel]);
+            }
+        }
+        return sums.image();
+    }
+
+    void paper() {
+        const int level = caustic_level(double(mine_.size()), double(settings_.epsilon));
+        const TexelCount count = paper_resolution(level, domain_.extent);
+        record_.width = count.width;
+        record_.height = count.height;
+        record_.why =
+            fmt::format("equation 7: 2^{} a side for {} particles at epsilon {}", level, mine_.size(), settings_.epsilon);
+        TexelGrid grid = grid_of({0, 0, int(count.width), int(count.height)}, int(count.width), int(count.height));
+        const std::vector<Rgb> whole = histogram(grid, mine_);
+        float most = 0.0F, least = std::numeric_limits<float>::infinity();
+        for (std::size_t i = 0; i < whole.size(); ++i) {
+            if (grid.area[i] > 0.0) {
+                most = std::max(most, luminance(whole[i]));
+                least = std::min(least, luminance(whole[i]));
+            }
+        }
+        record_.contrast = caustic_contrast(least, most);
+        // The contrast of a few particles a texel is near 1 by chance alone: what chance explains is no caustic.
+        if (record_.decision == CausticRecord::Decision::Coarse) {
+            record_.decision = CausticRecord::Decision::Texture;
+        }
+        if (record_.decision == CausticRecord::Decision::Texture && record_.contrast < settings_.eta) {
+            record_.decision = CausticRecord::Decision::Uniform;
+        }
+        if (record_.decision != CausticRecord::Decision::Texture) {
+            return;
+        }
+        // Boxes around texels above a share of the peak; each gets as many texels as the whole had.
+        std::vector<std::uint8_t> marked(whole.size());
+        for (std::size_t i = 0; i < whole.size(); ++i) {
+            marked[i] = luminance(whole[i]) > settings_.restriction * most ? 1 : 0;
+        }
+        std::vector<CellBox> boxes = component_boxes(marked, int(count.width), int(count.height));
+        std::stable_sort(boxes.begin(), boxes.end(), [](const CellBox& a, const CellBox& b) { return a.area() > b.area(); });
+        boxes.resize(std::min(boxes.size(), kMostBoxes));
+        boxes = merge_boxes(std::move(boxes), 0.0, kMostBoxes);
+        left_ = mine_;
+        for (const CellBox& box : boxes) {
+            std::vector<std::uint32_t> inside, outside;
+            for (const std::uint32_t i : left_) {
+                const vec2 at = grid.to_texels(landings_[i].uv);
+                (box.contains(std::clamp(int(at.x), 0, int(count.width) - 1),
+                              std::clamp(int(at.y), 0, int(count.height) - 1))
+                     ? inside
+                     : outside)
+                    .push_back(i);
+            }
+            if (inside.size() < settings_.least_particles) {
+                continue;
+            }
+            const vec2 texel = size() / vec2(float(count.width), float(count.height));
+            const TexelGrid own =
+                make_grid(domain_, charts_, positions_, triangles_, domain_.low + texel * vec2(float(box.x0), float(box.y0)),
+                          domain_.low + texel * vec2(float(box.x1), float(box.y1)), count.width, count.height);
+            std::vector<Rgb> image = spiral_means(histogram(own, inside), own, settings_.spiral_radius);
+            for (const std::uint32_t i : inside) {
+                record_.power_texture += luminance(landings_[i].power);
+            }
+            add_ring(own, image);
+            left_ = std::move(outside);
+        }
+        if (record_.boxes.empty()) {
+            record_.decision = CausticRecord::Decision::TooFew;
+        }
+    }
+
+    // A ring of black texels where the box ends within the chart.
+    void add_ring(const TexelGrid& own, const std::vector<Rgb>& image) {
+        const vec2 texel = (own.high - own.low) / vec2(float(own.width), float(own.height));
+        const auto inside = [&](float a, float b) { return std::abs(a - b) > 1e-4F * std::abs(b) + 1e-6F ? 1U : 0U; };
+        const std::uint32_t left = inside(own.low.x, domain_.low.x), right = inside(own.high.x, domain_.high.x);
+        const std::uint32_t below = inside(own.low.y, domain_.low.y), above = inside(own.high.y, domain_.high.y);
+        TexelGrid grid = own;
+        grid.width += left + right;
+        grid.height += below + above;
+        grid.low -= texel * vec2(float(left), float(below));
+        grid.high += texel * vec2(float(right), float(above));
+        grid.area.assign(grid.size(), 1.0); // rings are black all over
+        std::vector<Rgb> ringed(grid.size(), Rgb(0.0F));
+        for (std::uint32_t y = 0; y < own.height; ++y) {
+            for (std::uint32_t x = 0; x < own.width; ++x) {
+                const std::size_t to = std::size_t(y + below) * grid.width + x + left;
+                ringed[to] = image[std::size_t(y) * own.width + x];
+                grid.area[to] = own.area[std::size_t(y) * own.width + x];
+            }
+        }
+        keep(grid, std::move(ringed));
+    }
+
+    const ChartDomain& domain_;
+    std::span<const CausticLanding> landings_;
+    std::vector<std::uint32_t> mine_;
+    const SurfaceCharts& charts_;
+    std::span<const vec3> positions_;
+    std::span<const uvec3> triangles_;
+    const CausticSettings& settings_;
+    CausticSide& out_;
+    CausticRecord record_;
+    std::vector<std::uint32_t> left_; ///< landings for the mesh
+};
+
+} // namespace
+
+CausticSide build_caustics(std::span<const CausticLanding> landings, const SurfaceCharts& charts,
+                           std::span<const vec3> positions, std::span<const uvec3> triangles,
+                           const CausticSettings& settings) {
+    CausticSide out;
+    const std::vector<ChartDomain> domains = chart_domains(charts, positions, triangles);
+    std::vector<std::vector<std::uint32_t>> of_chart(domains.size());
+    std::size_t charted = 0;
+    for (std::uint32_t i = 0; i < landings.size(); ++i) {
+        const std::uint32_t chart = charts.chart_of_triangle[landings[i].triangle];
+        if (chart == SurfaceCharts::kNone || !(domains[chart].area > 0.0) || !is_finite(landings[i].uv)) {
+            out.on_mesh.push_back(i);
+            continue;
+        }
+        of_chart[chart].push_back(i);
+        ++charted;
+    }
+    for (std::size_t c = 0; c < domains.size(); ++c) {
+        if (!of_chart[c].empty()) {
+            const double share = double(of_chart[c].size()) / double(charted); // of the memory, by particles
+            ChartBuild(domains[c], landings, std::move(of_chart[c]), charts, positions, triangles, settings, out).run(share);
+        }
+    }
+    std::sort(out.on_mesh.begin(), out.on_mesh.end());
+    return out;
+}
+
+} // namespace atrium

@@ -1,0 +1,176 @@
+#include "engine/caustics/reconstruction.h"
+
+#include <algorithm>
+
+namespace atrium {
+namespace {
+
+// Symmetric 2 x 2 matrix in texels.
+struct Spread {
+    float xx = 0.0F, xy = 0.0F, yy = 0.0F;
+    void add(const vec2& v) {
+        xx += v.x * v.x;
+        xy += v.x * v.y;
+        yy += v.y * v.y;
+    }
+};
+
+} // namespace
+
+bool splat(const CausticLanding& landing, const TexelGrid& grid, const std::array<int, 2>& first,
+           const std::array<int, 2>& last, const KernelLimits& limits, CausticAccumulator& sums, double sign) {
+    const vec2 per_tile = vec2(float(grid.width), float(grid.height)) / (grid.high - grid.low);
+    const auto shorten = [&](vec2 v) {
+        v *= per_tile;
+        const float length = glm::length(v);
+        return length > limits.most ? v * (limits.most / length) : v;
+    };
+    Spread m;
+    m.add(shorten(landing.axis_a));
+    m.add(shorten(landing.axis_b));
+    if (!std::isfinite(m.xx + m.yy) || !(m.xx + m.yy > 0.0F)) {
+        m = {limits.unknown * limits.unknown, 0.0F, limits.unknown * limits.unknown};
+    }
+    m.xx += limits.least * limits.least;
+    m.yy += limits.least * limits.least;
+    const float determinant = std::max(m.xx * m.yy - m.xy * m.xy, 1e-12F);
+    const float ixx = m.yy / determinant, ixy = -m.xy / determinant, iyy = m.xx / determinant;
+    const vec2 at = grid.to_texels(landing.uv);
+    const float rx = std::sqrt(m.xx), ry = std::sqrt(m.yy);
+    const int x0 = std::max(int(std::floor(at.x - rx - 0.5F)), first[0]), x1 = std::min(int(at.x + rx + 1.0F), last[0]);
+    const int y0 = std::max(int(std::floor(at.y - ry - 0.5F)), first[1]), y1 = std::min(int(at.y + ry + 1.0F), last[1]);
+    double total = 0.0;
+    const auto for_each = [&](auto&& visit) {
+        for (int y = y0; y < y1; ++y) {
+            const float dy = float(y) + 0.5F - at.y;
+            for (int x = x0; x < x1; ++x) {
+                const float dx = float(x) + 0.5F - at.x;
+                const float q = ixx * dx * dx + 2.0F * ixy * dx * dy + iyy * dy * dy;
+                if (q < 1.0F) {
+                    visit(std::size_t(y) * grid.width + std::size_t(x), 1.0 - double(q));
+                }
+            }
+        }
+    };
+    for_each([&](std::size_t i, double w) { total += w * grid.area[i]; });
+    if (total > 0.0) {
+        const dvec3 scaled = dvec3(landing.power) * (sign / total);
+        for_each([&](std::size_t i, double w) {
+            if (grid.area[i] > 0.0) {
+                sums.add(i, scaled * w);
+            }
+        });
+        return true;
+    }
+    // A kernel between the middles of texels: the texel that it is in.
+    const int x = std::clamp(int(std::floor(at.x)), first[0], last[0] - 1);
+    const int y = std::clamp(int(std::floor(at.y)), first[1], last[1] - 1);
+    const std::size_t i = std::size_t(y) * grid.width + std::size_t(x);
+    if (last[0] <= first[0] || last[1] <= first[1] || !(grid.area[i] > 0.0)) {
+        return false;
+    }
+    sums.add(i, dvec3(landing.power) * (sign / grid.area[i]));
+    return true;
+}
+
+std::vector<Rgb> spiral_means(const std::vector<Rgb>& histogram, const TexelGrid& grid, float reach) {
+    const auto width = int(grid.width), height = int(grid.height);
+    // Texels around one in the order of their distance; those of one ring count together.
+    struct Step {
+        int x, y;
+        float distance;
+    };
+    std::vector<Step> steps;
+    const int r = int(std::ceil(reach));
+    for (int y = -r; y <= r; ++y) {
+        for (int x = -r; x <= r; ++x) {
+            const float d = std::sqrt(float(x * x + y * y));
+            if (d <= reach) {
+                steps.push_back({x, y, d});
+            }
+        }
+    }
+    std::stable_sort(steps.begin(), steps.end(), [](const Step& a, const Step& b) { return a.distance < b.distance; });
+    float most = 0.0F;
+    for (const Rgb& p : histogram) {
+        most = std::max(most, luminance(p));
+    }
+    std::vector<Rgb> out(histogram.size(), Rgb(0.0F));
+    dvec3 before(0.0), after(0.0);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const std::size_t i = std::size_t(y) * grid.width + std::size_t(x);
+            before += dvec3(histogram[i]) * grid.area[i];
+            if (!(grid.area[i] > 0.0)) {
+                continue;
+            }
+            Rgb sum(0.0F);
+            int count = 0;
+            for (std::size_t k = 0; k < steps.size();) {
+                const float ring = steps[k].distance;
+                for (; k < steps.size() && steps[k].distance == ring; ++k) {
+                    const int u = x + steps[k].x, v = y + steps[k].y;
+                    if (u < 0 || v < 0 || u >= width || v >= height) {
+                        continue;
+                    }
+                    const std::size_t j = std::size_t(v) * grid.width + std::size_t(u);
+                    if (grid.area[j] > 0.0) {
+                        sum += histogram[j];
+                        ++count;
+                    }
+                }
+                if (luminance(sum) >= most) {
+                    break;
+                }
+            }
+            out[i] = count > 0 ? sum / float(count) : Rgb(0.0F);
+            after += dvec3(out[i]) * grid.area[i];
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        const auto scale = float(after[k] > 0.0 ? before[k] / after[k] : 0.0);
+        for (Rgb& p : out) {
+            p[k] *= scale;
+        }
+    }
+    return out;
+}
+
+void fill_around(std::vector<Rgb>& image, const TexelGrid& grid) {
+    std::vector<std::uint8_t> has(grid.size());
+    for (std::size_t i = 0; i < has.size(); ++i) {
+        has[i] = grid.area[i] > 0.0 ? 1 : 0;
+    }
+    if (std::all_of(has.begin(), has.end(), [](std::uint8_t h) { return h != 0; })) {
+        return;
+    }
+    const auto width = int(grid.width), height = int(grid.height);
+    for (int pass = 0; pass < 2; ++pass) {
+        const std::vector<std::uint8_t> before = has;
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x) {
+                const std::size_t i = std::size_t(y) * grid.width + std::size_t(x);
+                if (before[i] != 0) {
+                    continue;
+                }
+                Rgb sum(0.0F);
+                int count = 0;
+                for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v) {
+                    for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
+                        const std::size_t j = std::size_t(v) * grid.width + std::size_t(u);
+                        if (before[j] != 0) {
+                            sum += image[j];
+                            ++count;
+                        }
+                    }
+                }
+                if (count > 0) {
+                    image[i] = sum / float(count);
+                    has[i] = 1;
+                }
+            }
+        }
+    }
+}
+
+} // namespace atrium

@@ -1,0 +1,32 @@
+// From particles or a histogram to the texels of a caustic texture.
+#pragma once
+
+#include "engine/caustics/texel_grid.h"
+
+namespace atrium {
+
+/// How wide the kernel of a landing without a known footprint is, and what is allowed for one with it; in texels.
+struct KernelLimits {
+    float unknown = 2.0F; ///< radius where the footprint is unknown
+    float least = 0.7F;   ///< added to every half axis by its square, so that no texel is missed between two
+    float most = 64.0F;   ///< longest half axis
+};
+
+/// Spreads the power of a landing over the texels of a grid by an Epanechnikov kernel on its footprint: phi (1 - q), q =
+/// x^T M^-1 x < 1, M = footprint + least^2 (photon differentials, Schjoth et al. 2007). Weights are scaled over the surface
+/// in the texels, so the power is kept at the edge of a polygon and of the grid too, and thin slivers of surface do not
+/// glow. `first` and `last` bound the texels that may be lit: [first, last). False where none of them has surface: nothing
+/// is added. `sign` = -1 takes a landing away again. Safe from any thread.
+bool splat(const CausticLanding& landing, const TexelGrid& grid, const std::array<int, 2>& first,
+           const std::array<int, 2>& last, const KernelLimits& limits, CausticAccumulator& sums, double sign = 1.0);
+
+/// PAPER equation 8: from every texel outwards in rings, until what was met reaches the histogram's largest value or the
+/// radius `reach` (texels); the texel becomes the mean over what was met. The whole is then scaled to the power of the
+/// histogram, which this smoothing alone does not keep.
+std::vector<Rgb> spiral_means(const std::vector<Rgb>& histogram, const TexelGrid& grid, float reach);
+
+/// Carries light on into texels without surface next to lit ones, so that interpolation up to a polygon's edge does not
+/// darken.
+void fill_around(std::vector<Rgb>& image, const TexelGrid& grid);
+
+} // namespace atrium

@@ -1,0 +1,147 @@
+#include "engine/caustics/texel_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+
+namespace atrium {
+namespace {
+
+// A convex polygon cut by an axis-aligned half plane: keeps what lies on the side of `sign`.
+struct Clipped {
+    std::array<dvec2, 12> p;
+    int count = 0;
+};
+
+Clipped clip(const Clipped& in, int axis, double at, double sign) {
+    Clipped out;
+    for (int i = 0; i < in.count; ++i) {
+        const dvec2& a = in.p[std::size_t(i)];
+        const dvec2& b = in.p[std::size_t((i + 1) % in.count)];
+        const double da = sign * (a[axis] - at), db = sign * (b[axis] - at);
+        if (da >= 0.0) {
+            out.p[std::size_t(out.count++)] = a;
+        }
+        if ((da > 0.0 && db < 0.0) || (da < 0.0 && db > 0.0)) {
+            out.p[std::size_t(out.count++)] = a + (b - a) * (da / (da - db));
+        }
+    }
+    return out;
+}
+
+double area_of(const Clipped& c) {
+    double sum = 0.0;
+    for (int i = 1; i + 1 < c.count; ++i) {
+        const dvec2 a = c.p[std::size_t(i)] - c.p[0];
+        const dvec2 b = c.p[std::size_t(i + 1)] - c.p[0];
+        sum += a.x * b.y - a.y * b.x;
+    }
+    return 0.5 * std::abs(sum);
+}
+
+} // namespace
+
+std::vector<ChartDomain> chart_domains(const SurfaceCharts& charts, std::span<const vec3> positions,
+                                       std::span<const uvec3> triangles) {
+    std::vector<ChartDomain> out(charts.charts.size());
+    for (std::size_t c = 0; c < out.size(); ++c) {
+        const Chart& chart = charts.charts[c];
+        out[c].chart = std::uint32_t(c);
+        // The rectangle that the surface fills, not the whole tiles around it.
+        out[c].low = vec2(std::numeric_limits<float>::infinity());
+        out[c].high = vec2(-std::numeric_limits<float>::infinity());
+        out[c].extent = chart.scale;
+    }
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        const std::uint32_t c = charts.chart_of_triangle[t];
+        if (c == SurfaceCharts::kNone) {
+            continue;
+        }
+        const vec3& p = positions[triangles[t].x];
+        out[c].area += 0.5 * glm::length(dvec3(glm::cross(positions[triangles[t].y] - p, positions[triangles[t].z] - p)));
+        out[c].triangles.push_back(t);
+        for (const vec2& uv : charts.uv[t]) {
+            out[c].low = glm::min(out[c].low, uv);
+            out[c].high = glm::max(out[c].high, uv);
+        }
+    }
+    for (ChartDomain& d : out) {
+        d.extent *= glm::max(d.high - d.low, vec2(0.0F));
+    }
+    return out;
+}
+
+std::size_t TexelGrid::texel_at(const vec2& uv) const {
+    const vec2 at = to_texels(uv);
+    const auto x = std::size_t(std::clamp(int(std::floor(at.x)), 0, int(width) - 1));
+    const auto y = std::size_t(std::clamp(int(std::floor(at.y)), 0, int(height) - 1));
+    return y * width + x;
+}
+
+TexelGrid make_grid(const ChartDomain& domain, const SurfaceCharts& charts, std::span<const vec3> positions,
+                    std::span<const uvec3> triangles, const vec2& low, const vec2& high, std::uint32_t width,
+                    std::uint32_t height) {
+    TexelGrid grid;
+    grid.low = low;
+    grid.high = high;
+    grid.width = width;
+    grid.height = height;
+    grid.area.assign(grid.size(), 0.0);
+    const dvec2 scale = dvec2(double(width), double(height)) / dvec2(high - low);
+    for (const std::uint32_t t : domain.triangles) {
+        const vec3& p = positions[triangles[t].x];
+        const double world =
+            0.5 * glm::length(dvec3(glm::cross(positions[triangles[t].y] - p, positions[triangles[t].z] - p)));
+        Clipped whole;
+        whole.count = 3;
+        dvec2 least(1e30), most(-1e30);
+        for (std::size_t k = 0; k < 3; ++k) {
+            whole.p[k] = dvec2(charts.uv[t][k] - low) * scale;
+            least = glm::min(least, whole.p[k]);
+            most = glm::max(most, whole.p[k]);
+        }
+        const double flat = area_of(whole);
+        if (!(flat > 0.0)) {
+            continue;
+        }
+        const double density = world / flat;
+        const int y0 = std::max(int(std::floor(least.y)), 0), y1 = std::min(int(std::floor(most.y)), int(height) - 1);
+        for (int y = y0; y <= y1; ++y) {
+            const Clipped row = clip(clip(whole, 1, y, 1.0), 1, y + 1.0, -1.0);
+            if (row.count < 3) {
+                continue;
+            }
+            double left = 1e30, right = -1e30;
+            for (int i = 0; i < row.count; ++i) {
+                left = std::min(left, row.p[std::size_t(i)].x);
+                right = std::max(right, row.p[std::size_t(i)].x);
+            }
+            const int x0 = std::max(int(std::floor(left)), 0), x1 = std::min(int(std::floor(right)), int(width) - 1);
+            Clipped rest = row;
+            for (int x = x0; x <= x1 && rest.count >= 3; ++x) {
+                const Clipped cell = clip(rest, 0, x + 1.0, -1.0);
+                const Clipped inside = x == x0 ? clip(cell, 0, x, 1.0) : cell;
+                grid.area[std::size_t(y) * width + std::size_t(x)] += area_of(inside) * density;
+                rest = clip(rest, 0, x + 1.0, 1.0);
+            }
+        }
+    }
+    return grid;
+}
+
+void CausticAccumulator::add(std::size_t texel, const dvec3& irradiance) {
+    for (int k = 0; k < 3; ++k) {
+        const auto amount = std::int64_t(std::llround(std::clamp(irradiance[k] / kQuantum, -9e18, 9e18)));
+        std::atomic_ref<std::int64_t>(sums_[3 * texel + std::size_t(k)]).fetch_add(amount, std::memory_order_relaxed);
+    }
+}
+
+std::vector<Rgb> CausticAccumulator::image() const {
+    std::vector<Rgb> out(sums_.size() / 3);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i] = Rgb(dvec3(double(sums_[3 * i]), double(sums_[3 * i + 1]), double(sums_[3 * i + 2])) * kQuantum);
+    }
+    return out;
+}
+
+} // namespace atrium
