@@ -40,14 +40,33 @@ bool splat(const CausticLanding& landing, const TexelGrid& grid, const std::arra
     const int x0 = std::max(int(std::floor(at.x - rx - 0.5F)), first[0]), x1 = std::min(int(at.x + rx + 1.0F), last[0]);
     const int y0 = std::max(int(std::floor(at.y - ry - 0.5F)), first[1]), y1 = std::min(int(at.y + ry + 1.0F), last[1]);
     double total = 0.0;
+    // What falls beyond the chart's edge is thrown back as by a mirror there: even light stays even up to the edge.
+    const std::array<float, 3> fold_x{0.0F, first[0] == 0 && at.x < rx ? 0.0F : -1.0F,
+                                      last[0] == int(grid.width) && at.x + rx > float(grid.width) ? float(grid.width)
+                                                                                                  : -1.0F};
+    const std::array<float, 3> fold_y{0.0F, first[1] == 0 && at.y < ry ? 0.0F : -1.0F,
+                                      last[1] == int(grid.height) && at.y + ry > float(grid.height) ? float(grid.height)
+                                                                                                    : -1.0F};
+    const auto kernel = [&](float dx, float dy) {
+        return std::max(1.0F - (ixx * dx * dx + 2.0F * ixy * dx * dy + iyy * dy * dy), 0.0F);
+    };
+    const bool folds = fold_x[1] >= 0.0F || fold_x[2] >= 0.0F || fold_y[1] >= 0.0F || fold_y[2] >= 0.0F;
     const auto for_each = [&](auto&& visit) {
         for (int y = y0; y < y1; ++y) {
-            const float dy = float(y) + 0.5F - at.y;
+            const float cy = float(y) + 0.5F;
             for (int x = x0; x < x1; ++x) {
-                const float dx = float(x) + 0.5F - at.x;
-                const float q = ixx * dx * dx + 2.0F * ixy * dx * dy + iyy * dy * dy;
-                if (q < 1.0F) {
-                    visit(std::size_t(y) * grid.width + std::size_t(x), 1.0 - double(q));
+                const float cx = float(x) + 0.5F;
+                float w = kernel(cx - at.x, cy - at.y);
+                for (std::size_t j = 0; folds && j < 3; ++j) {
+                    for (std::size_t i = 0; i < 3; ++i) {
+                        if (i + j > 0 && fold_x[i] >= 0.0F && fold_y[j] >= 0.0F) {
+                            w += kernel((i > 0 ? 2.0F * fold_x[i] - cx : cx) - at.x,
+                                        (j > 0 ? 2.0F * fold_y[j] - cy : cy) - at.y);
+                        }
+                    }
+                }
+                if (w > 0.0F) {
+                    visit(std::size_t(y) * grid.width + std::size_t(x), double(w));
                 }
             }
         }

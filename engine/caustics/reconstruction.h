@@ -15,8 +15,9 @@ struct KernelLimits {
 /// Spreads the power of a landing over the texels of a grid by an Epanechnikov kernel on its footprint: phi (1 - q), q =
 /// x^T M^-1 x < 1, M = footprint + least^2 (photon differentials, Schjoth et al. 2007). Weights are scaled over the surface
 /// in the texels, so the power is kept at the edge of a polygon and of the grid too, and thin slivers of surface do not
-/// glow. `first` and `last` bound the texels that may be lit: [first, last). False where none of them has surface: nothing
-/// is added. `sign` = -1 takes a landing away again. Safe from any thread.
+/// glow; at the chart's own edges, where the lit texels end with the grid, kernels are folded back. `first` and `last` bound
+/// the texels that may be lit: [first, last). False where none of them has surface: nothing is added. `sign` = -1 takes a
+/// landing away again. Safe from any thread.
 bool splat(const CausticLanding& landing, const TexelGrid& grid, const std::array<int, 2>& first,
            const std::array<int, 2>& last, const KernelLimits& limits, CausticAccumulator& sums, double sign = 1.0);
 
