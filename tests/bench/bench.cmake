@@ -20,3 +20,6 @@ target_compile_definitions(diffuse_bench PRIVATE
 
 add_executable(particle_bench ${CMAKE_CURRENT_LIST_DIR}/particle_bench.cpp ${CMAKE_CURRENT_LIST_DIR}/bare_embree.cpp)
 target_link_libraries(particle_bench PRIVATE atrium_engine CLI11::CLI11 embree)
+
+add_executable(caustic_bench ${CMAKE_CURRENT_LIST_DIR}/caustic_bench.cpp ${CMAKE_CURRENT_LIST_DIR}/caustic_scenes.cpp)
+target_link_libraries(caustic_bench PRIVATE atrium_engine CLI11::CLI11)

@@ -1,0 +1,249 @@
+// Error of caustic textures against brute force: both modes, by particles and by time; and what reconstruction costs.
+#include "engine/base/parallel.h"
+#include "engine/base/rng.h"
+#include "engine/layers/caustic_layer.h"
+#include "engine/raycast/scene_charts.h"
+#include "engine/solver/quality.h"
+#include "tests/bench/bench_support.h"
+#include "tests/bench/caustic_scenes.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <chrono>
+
+namespace atrium::bench {
+namespace {
+
+constexpr int kSide = 256; // texels of the comparison
+
+double wall() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// Irradiance (luminance) per texel of the receiver.
+using Map = std::vector<double>;
+
+/// Landings on the receiver as a histogram: unbiased, noisy.
+Map histogram(const CausticScene& c, const RayScene& rays, const ParticleMap& map, int side) {
+    Map out(std::size_t(side) * std::size_t(side), 0.0);
+    const double texel = double(c.size) * c.size / (double(side) * side);
+    for (const Landing& l : map.landings()) {
+        if (!c.on_receiver(rays, l)) {
+            continue;
+        }
+        const vec2 at = c.place(rays, l) * float(side);
+        if (at.x >= 0.0F && at.y >= 0.0F && at.x < float(side) && at.y < float(side)) {
+            out[std::size_t(at.y) * std::size_t(side) + std::size_t(at.x)] += luminance(map.power(l)) / texel;
+        }
+    }
+    return out;
+}
+
+/// What textures show there, and the rest of the landings at the mesh's resolution.
+Map shown(const CausticScene& c, const RayScene& rays, const std::vector<SurfaceCharts>& charts, const ParticleMap& map,
+          const CausticLight& light, float mesh_edge) {
+    Map out(std::size_t(kSide) * kSide, 0.0);
+    for (const CausticLight::Side& side : light.sides) {
+        if (side.surface != c.receiver || side.back) {
+            continue;
+        }
+        constexpr int kSub = 3;
+        for (int y = 0; y < kSide; ++y) {
+            for (int x = 0; x < kSide; ++x) {
+                double sum = 0.0;
+                for (int k = 0; k < kSub * kSub; ++k) {
+                    const vec2 at((float(x) + (float(k % kSub) + 0.5F) / kSub) / kSide,
+                                  (float(y) + (float(k / kSub) + 0.5F) / kSub) / kSide);
+                    const vec2 uv = c.chart_position(charts[c.receiver], at);
+                    for (const auto& t : side.textures) {
+                        sum += luminance(t->irradiance(uv));
+                    }
+                }
+                out[std::size_t(y) * kSide + std::size_t(x)] += sum / (kSub * kSub);
+            }
+        }
+        const int cells = std::max(int(std::lround(c.size / mesh_edge)), 1);
+        Map mesh(std::size_t(cells) * std::size_t(cells), 0.0);
+        const double cell = double(c.size) * c.size / (double(cells) * cells);
+        for (const std::uint32_t i : side.on_mesh) {
+            const vec2 at = c.place(rays, map.landings()[i]) * float(cells);
+            if (at.x >= 0.0F && at.y >= 0.0F && at.x < float(cells) && at.y < float(cells)) {
+                mesh[std::size_t(at.y) * std::size_t(cells) + std::size_t(at.x)] +=
+                    luminance(map.power(map.landings()[i])) / cell;
+            }
+        }
+        for (int y = 0; y < kSide; ++y) {
+            for (int x = 0; x < kSide; ++x) {
+                out[std::size_t(y) * kSide + std::size_t(x)] +=
+                    mesh[std::size_t(y * cells / kSide) * std::size_t(cells) + std::size_t(x * cells / kSide)];
+            }
+        }
+    }
+    return out;
+}
+
+/// Root mean square difference over the root mean square of the truth, less the truth's own noise.
+double error(const Map& a, const Map& truth, double noise2) {
+    double d = 0.0, s = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        d += (a[i] - truth[i]) * (a[i] - truth[i]);
+        s += truth[i] * truth[i];
+    }
+    return s > 0.0 ? std::sqrt(std::max(d - noise2, 0.0) / s) : 0.0;
+}
+
+ParticleMap trace(const CausticScene& c, const RayScene& rays, const SpecularTargets& targets, const DirectLight& direct,
+                  std::uint32_t count, std::uint32_t seed) {
+    ParticleSettings settings;
+    settings.particles = count;
+    settings.seed = seed;
+    return ParticleMap(rays, targets, direct, c.emitters(rays), {}, settings, RunContext{});
+}
+
+void measure(const CausticScene& c, std::uint32_t truth_particles) {
+    const RayScene rays(c.scene);
+    const SpecularTargets targets(rays);
+    const DirectLight direct(c.scene, rays);
+    const QualitySettings quality = quality_settings(SolverSettings::Quality::Normal, rays.bounds().diagonal(), 0.0);
+    const std::vector<SurfaceCharts> charts = chart_surfaces(rays, quality.charts);
+    // Two halves: their difference is the truth's noise.
+    Map halves[2];
+    Map truth(std::size_t(kSide) * kSide, 0.0);
+    constexpr std::uint32_t kPart = 2'000'000;
+    for (int h = 0; h < 2; ++h) {
+        halves[h].assign(truth.size(), 0.0);
+        const std::uint32_t parts = std::max(truth_particles / 2 / kPart, 1U);
+        for (std::uint32_t k = 0; k < parts; ++k) {
+            const ParticleMap map = trace(c, rays, targets, direct, kPart, 1000 + 2 * k + std::uint32_t(h));
+            const Map part = histogram(c, rays, map, kSide);
+            for (std::size_t i = 0; i < truth.size(); ++i) {
+                halves[h][i] += part[i] / parts;
+            }
+        }
+    }
+    double noise2 = 0.0, size2 = 0.0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        truth[i] = 0.5 * (halves[0][i] + halves[1][i]);
+        noise2 += 0.25 * (halves[0][i] - halves[1][i]) * (halves[0][i] - halves[1][i]);
+        size2 += truth[i] * truth[i];
+    }
+    fmt::print("{}: truth from {} particles, its noise {:.2f} %\n", c.name, truth_particles,
+               100.0 * std::sqrt(noise2 / size2));
+    fmt::print("  {:>9} {:>9} {:>10} {:>10} {:>7} {:>8} {:>12} {:>12} {:>5}  {}\n", "particles", "landings", "paper",
+               "default", "ratio", "trace s", "paper s", "default s", "boxes", "texels");
+    for (const std::uint32_t n : {3000U, 10'000U, 30'000U, 100'000U, 300'000U, 1'000'000U}) {
+        double start = wall();
+        const ParticleMap map = trace(c, rays, targets, direct, n, 1);
+        const double traced = wall() - start;
+        double errors[2];
+        double seconds[2];
+        std::size_t boxes = 0, texels = 0;
+        for (const bool paper : {true, false}) {
+            CausticSettings settings = quality.caustics;
+            settings.paper = paper;
+            start = wall();
+            const CausticLight light = build_caustic_light(rays, charts, map, settings);
+            seconds[paper ? 0 : 1] = wall() - start;
+            errors[paper ? 0 : 1] = error(shown(c, rays, charts, map, light, settings.mesh_edge), truth, noise2);
+            boxes = light.texture_count();
+            texels = 0;
+            for (const auto& side : light.sides) {
+                for (const auto& t : side.textures) {
+                    texels += t->image.size();
+                }
+            }
+        }
+        fmt::print("  {:>9} {:>9} {:>9.1f}% {:>9.1f}% {:>7.2f} {:>8.3f} {:>12.3f} {:>12.3f} {:>5}  {}\n", map.emitted(),
+                   map.landings().size(), 100.0 * errors[0], 100.0 * errors[1], errors[1] / std::max(errors[0], 1e-9),
+                   traced, seconds[0], seconds[1], boxes, texels);
+    }
+}
+
+/// 25 textures of 85 x 85 from a million particles, both modes.
+void reconstruction_speed() {
+    constexpr std::uint32_t kTextures = 25, kParticles = 1'000'000;
+    SurfaceCharts charts;
+    charts.tile_edge = 1.0F;
+    charts.width = charts.height = 5;
+    std::vector<vec3> positions;
+    std::vector<uvec3> triangles;
+    for (std::uint32_t k = 0; k < kTextures; ++k) {
+        const vec3 at(float(k % 5), float(k / 5), 0.0F);
+        Chart chart;
+        chart.tile_u = k % 5;
+        chart.tile_v = k / 5;
+        chart.tiles_u = chart.tiles_v = 1;
+        charts.charts.push_back(chart);
+        const auto v = std::uint32_t(positions.size());
+        for (const vec2& c : {vec2(0, 0), vec2(1, 0), vec2(1, 1), vec2(0, 1)}) {
+            positions.push_back(at + vec3(c.x, c.y, 0.0F));
+        }
+        for (const uvec3& t : {uvec3(v, v + 1, v + 2), uvec3(v, v + 2, v + 3)}) {
+            triangles.push_back(t);
+            charts.chart_of_triangle.push_back(k);
+            charts.uv.push_back({vec2(positions[t.x]), vec2(positions[t.y]), vec2(positions[t.z])});
+        }
+    }
+    std::vector<CausticLanding> landings;
+    for (std::uint32_t i = 0; i < kParticles; ++i) {
+        CausticLanding l;
+        const std::uint32_t k = i % kTextures;
+        const vec2 u = sobol_owen2(i / kTextures, 0, k);
+        const float r = 0.45F * u.x; // denser towards the middle
+        const float angle = 2.0F * kPi * u.y;
+        const vec2 p = vec2(0.5F) + r * vec2(std::cos(angle), std::sin(angle));
+        const bool second = p.y > p.x;
+        l.triangle = 2 * k + (second ? 1 : 0);
+        l.uv = vec2(float(k % 5), float(k / 5)) + p;
+        l.barycentric = second ? vec2(p.x, p.y - p.x) : vec2(p.x - p.y, p.y);
+        l.axis_a = vec2(0.02F, 0.0F); // texels of 1/100: about 85 across the lit disc
+        l.axis_b = vec2(0.0F, 0.02F);
+        l.power = Rgb(1.0F / float(kParticles));
+        landings.push_back(l);
+    }
+    for (const bool paper : {true, false}) {
+        CausticSettings settings;
+        settings.paper = paper;
+        settings.mesh_edge = 0.2F;
+        double best = std::numeric_limits<double>::infinity();
+        CausticSide side;
+        for (int round = 0; round < 5; ++round) {
+            const double start = wall();
+            side = build_caustics(landings, charts, positions, triangles, settings);
+            best = std::min(best, wall() - start);
+        }
+        std::size_t texels = 0;
+        for (const auto& t : side.textures) {
+            texels += t->image.size();
+        }
+        fmt::print("{}: {} textures, {:.0f} texels a side on average, {} particles: {:.0f} ms on {} threads\n",
+                   paper ? "paper" : "default", side.textures.size(),
+                   std::sqrt(double(texels) / double(std::max<std::size_t>(side.textures.size(), 1))), kParticles,
+                   1000.0 * best, thread_limit());
+    }
+}
+
+} // namespace
+} // namespace atrium::bench
+
+int main(int argc, char** argv) {
+    using namespace atrium::bench;
+    CLI::App app{"Relative RMS error of caustic textures on 256 x 256 texels of the receiver against brute force, paper and "
+                 "default mode at equal particles, and the time of both."};
+    std::uint32_t truth = 20'000'000;
+    std::vector<std::string> only;
+    app.add_option("--truth", truth, "particles of the truth");
+    app.add_option("--only", only, "names of scenes; 'speed' for reconstruction alone");
+    CLI11_PARSE(app, argc, argv);
+    const auto wanted = [&](const std::string& name) {
+        return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
+    };
+    for (const CausticScene& c : caustic_scenes()) {
+        if (wanted(c.name)) {
+            measure(c, truth);
+        }
+    }
+    if (wanted("speed")) {
+        reconstruction_speed();
+    }
+    return 0;
+}
