@@ -20,6 +20,7 @@ constexpr int kMostTexels = 8192;      // a side of a chart's grid
 constexpr float kLongestAxis = 0.2F;   // of a kernel, as a share of its texture
 constexpr double kManyPerTexel = 8.0;  // landings a texel from which the least kernel may shrink
 constexpr float kLeastOfMany = 0.3F;   // texels: what it shrinks to
+constexpr float kWidest = 3.0F;        // texels: kernels of a larger half width go to coarser texels
 constexpr std::size_t kGrain = 4096;
 
 /// One chart, its landings and what is decided about them.
@@ -189,6 +190,37 @@ private:
         return merge_boxes(std::move(boxes), 0.0, kMostBoxes); // rings may have met
     }
 
+    // Wide kernels are laid on coarser texels: a few dozen texels each, whatever their width.
+    struct Level {
+        TexelGrid grid;
+        LitRange range;
+        KernelLimits limits;
+        CausticAccumulator sums{0};
+    };
+    static std::vector<Level> make_levels(const TexelGrid& grid, const CellBox& box, int width, int height,
+                                          const KernelLimits& limits) {
+        std::vector<Level> out;
+        const vec2 high(float(grid.width), float(grid.height));
+        LitRange range;
+        range.first = {box.x0 > 0 ? 1 : 0, box.y0 > 0 ? 1 : 0};
+        range.last = {int(grid.width) - (box.x1 < width ? 1 : 0), int(grid.height) - (box.y1 < height ? 1 : 0)};
+        range.edge_low = {box.x0 > 0 ? -1.0F : 0.0F, box.y0 > 0 ? -1.0F : 0.0F};
+        range.edge_high = {box.x1 < width ? -1.0F : high.x, box.y1 < height ? -1.0F : high.y};
+        out.push_back({grid, range, limits, CausticAccumulator(grid.size())});
+        for (float factor = 2.0F; std::min(out.back().grid.width, out.back().grid.height) >= 16; factor *= 2.0F) {
+            Level level{coarser(out.back().grid), range, limits, CausticAccumulator(0)};
+            level.range.first = {0, 0};
+            level.range.last = {int(level.grid.width), int(level.grid.height)};
+            for (vec2* edge : {&level.range.edge_low, &level.range.edge_high}) {
+                *edge = {edge->x < 0.0F ? -1.0F : edge->x / factor, edge->y < 0.0F ? -1.0F : edge->y / factor};
+            }
+            level.limits = {limits.unknown / factor, limits.least / factor, limits.most / factor};
+            level.sums = CausticAccumulator(level.grid.size());
+            out.push_back(std::move(level));
+        }
+        return out;
+    }
+
     void fill(const std::vector<CellBox>& boxes, int width, int height) {
         std::vector<std::uint32_t> of_box(mine_.size(), std::uint32_t(boxes.size()));
         std::vector<std::size_t> count(boxes.size() + 1, 0);
@@ -211,21 +243,25 @@ private:
             }
             const CellBox& box = boxes[b];
             const TexelGrid grid = grid_of(box, width, height);
-            const std::array<int, 2> first{box.x0 > 0 ? 1 : 0, box.y0 > 0 ? 1 : 0};
-            const std::array<int, 2> last{int(grid.width) - (box.x1 < width ? 1 : 0),
-                                          int(grid.height) - (box.y1 < height ? 1 : 0)};
             KernelLimits limits;
             const double per_texel = double(count[b]) / double(grid.size());
             limits.least = per_texel > kManyPerTexel ? kLeastOfMany : limits.least;
             limits.unknown = std::max(1.5F * float(std::sqrt(1.0 / per_texel)), limits.least);
             limits.most = std::max(kLongestAxis * float(std::max(width, height)), 2.0F);
-            CausticAccumulator sums(grid.size());
+            std::vector<Level> levels = make_levels(grid, box, width, height, limits);
             std::vector<std::uint8_t> lost(mine_.size(), 0);
             parallel_chunks(mine_.size(), kGrain, [&](std::size_t begin, std::size_t end, std::size_t) {
                 for (std::size_t k = begin; k < end; ++k) {
-                    if (of_box[k] == b) {
-                        lost[k] = splat(landings_[mine_[k]], grid, first, last, limits, sums) ? 0 : 1;
+                    if (of_box[k] != b) {
+                        continue;
                     }
+                    const CausticLanding& l = landings_[mine_[k]];
+                    std::size_t level = 0;
+                    for (float w = kernel_width(l, grid, limits); w > kWidest && level + 1 < levels.size(); w *= 0.5F) {
+                        ++level;
+                    }
+                    Level& at = levels[level];
+                    lost[k] = splat(l, at.grid, at.range, at.limits, at.sums) ? 0 : 1;
                 }
             });
             for (std::size_t k = 0; k < mine_.size(); ++k) {
@@ -235,7 +271,11 @@ private:
                     of_box[k] = std::uint32_t(boxes.size());
                 }
             }
-            keep(grid, sums.image());
+            std::vector<Rgb> image = levels[0].sums.image();
+            for (std::size_t level = 1; level < levels.size(); ++level) {
+                add_coarser(levels[level].sums.image(), levels[level].grid, 1 << level, grid, levels[0].range, image);
+            }
+            keep(grid, std::move(image));
         }
         for (std::size_t k = 0; k < mine_.size(); ++k) {
             if (of_box[k] == boxes.size()) {

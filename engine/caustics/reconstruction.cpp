@@ -15,10 +15,7 @@ struct Spread {
     }
 };
 
-} // namespace
-
-bool splat(const CausticLanding& landing, const TexelGrid& grid, const std::array<int, 2>& first,
-           const std::array<int, 2>& last, const KernelLimits& limits, CausticAccumulator& sums, double sign) {
+Spread kernel_of(const CausticLanding& landing, const TexelGrid& grid, const KernelLimits& limits) {
     const vec2 per_tile = vec2(float(grid.width), float(grid.height)) / (grid.high - grid.low);
     const auto shorten = [&](vec2 v) {
         v *= per_tile;
@@ -33,6 +30,16 @@ bool splat(const CausticLanding& landing, const TexelGrid& grid, const std::arra
     }
     m.xx += limits.least * limits.least;
     m.yy += limits.least * limits.least;
+    return m;
+}
+
+} // namespace
+
+bool splat(const CausticLanding& landing, const TexelGrid& grid, const LitRange& range, const KernelLimits& limits,
+           CausticAccumulator& sums, double sign) {
+    const Spread m = kernel_of(landing, grid, limits);
+    const std::array<int, 2>& first = range.first;
+    const std::array<int, 2>& last = range.last;
     const float determinant = std::max(m.xx * m.yy - m.xy * m.xy, 1e-12F);
     const float ixx = m.yy / determinant, ixy = -m.xy / determinant, iyy = m.xx / determinant;
     const vec2 at = grid.to_texels(landing.uv);
@@ -41,12 +48,12 @@ bool splat(const CausticLanding& landing, const TexelGrid& grid, const std::arra
     const int y0 = std::max(int(std::floor(at.y - ry - 0.5F)), first[1]), y1 = std::min(int(at.y + ry + 1.0F), last[1]);
     double total = 0.0;
     // What falls beyond the chart's edge is thrown back as by a mirror there: even light stays even up to the edge.
-    const std::array<float, 3> fold_x{0.0F, first[0] == 0 && at.x < rx ? 0.0F : -1.0F,
-                                      last[0] == int(grid.width) && at.x + rx > float(grid.width) ? float(grid.width)
-                                                                                                  : -1.0F};
-    const std::array<float, 3> fold_y{0.0F, first[1] == 0 && at.y < ry ? 0.0F : -1.0F,
-                                      last[1] == int(grid.height) && at.y + ry > float(grid.height) ? float(grid.height)
-                                                                                                    : -1.0F};
+    const auto fold = [](float place, float reach, float low, float high) {
+        return std::array<float, 3>{0.0F, low >= 0.0F && place - reach < low ? low : -1.0F,
+                                    high >= 0.0F && place + reach > high ? high : -1.0F};
+    };
+    const std::array<float, 3> fold_x = fold(at.x, rx, range.edge_low.x, range.edge_high.x);
+    const std::array<float, 3> fold_y = fold(at.y, ry, range.edge_low.y, range.edge_high.y);
     const auto kernel = [&](float dx, float dy) {
         return std::max(1.0F - (ixx * dx * dx + 2.0F * ixy * dx * dy + iyy * dy * dy), 0.0F);
     };
@@ -90,6 +97,70 @@ bool splat(const CausticLanding& landing, const TexelGrid& grid, const std::arra
     }
     sums.add(i, dvec3(landing.power) * (sign / grid.area[i]));
     return true;
+}
+
+float kernel_width(const CausticLanding& landing, const TexelGrid& grid, const KernelLimits& limits) {
+    const Spread m = kernel_of(landing, grid, limits);
+    const float spread = std::sqrt(std::max(0.25F * (m.xx - m.yy) * (m.xx - m.yy) + m.xy * m.xy, 0.0F));
+    return std::sqrt(std::max(0.5F * (m.xx + m.yy) - spread, 0.0F));
+}
+
+TexelGrid coarser(const TexelGrid& grid) {
+    TexelGrid out;
+    out.width = (grid.width + 1) / 2;
+    out.height = (grid.height + 1) / 2;
+    out.low = grid.low;
+    const vec2 texel = (grid.high - grid.low) / vec2(float(grid.width), float(grid.height));
+    out.high = grid.low + 2.0F * texel * vec2(float(out.width), float(out.height));
+    out.area.assign(out.size(), 0.0);
+    for (std::uint32_t y = 0; y < grid.height; ++y) {
+        for (std::uint32_t x = 0; x < grid.width; ++x) {
+            out.area[std::size_t(y / 2) * out.width + x / 2] += grid.area[std::size_t(y) * grid.width + x];
+        }
+    }
+    return out;
+}
+
+void add_coarser(const std::vector<Rgb>& from, const TexelGrid& coarse, int factor, const TexelGrid& grid,
+                 const LitRange& range, std::vector<Rgb>& image) {
+    dvec3 before(0.0);
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        before += dvec3(from[i]) * coarse.area[i];
+    }
+    if (!(before.r + before.g + before.b > 0.0)) {
+        return;
+    }
+    // Texels without surface have no light of their own to interpolate with.
+    std::vector<Rgb> filled = from;
+    fill_around(filled, coarse);
+    std::vector<Rgb> fine(image.size(), Rgb(0.0F));
+    dvec3 after(0.0);
+    const auto clamp_to = [](float v, std::uint32_t count) { return std::clamp(v, 0.0F, float(count - 1)); };
+    for (int y = range.first[1]; y < range.last[1]; ++y) {
+        const float v = clamp_to((float(y) + 0.5F) / float(factor) - 0.5F, coarse.height);
+        const auto j = std::min(std::size_t(v), std::size_t(coarse.height - 1));
+        const std::size_t j1 = std::min<std::size_t>(j + 1, coarse.height - 1);
+        const float fy = v - float(j);
+        for (int x = range.first[0]; x < range.last[0]; ++x) {
+            const float u = clamp_to((float(x) + 0.5F) / float(factor) - 0.5F, coarse.width);
+            const auto i = std::min(std::size_t(u), std::size_t(coarse.width - 1));
+            const std::size_t i1 = std::min<std::size_t>(i + 1, coarse.width - 1);
+            const float fx = u - float(i);
+            const auto texel = [&](std::size_t column, std::size_t row) { return filled[row * coarse.width + column]; };
+            const Rgb value = (texel(i, j) * (1.0F - fx) + texel(i1, j) * fx) * (1.0F - fy) +
+                              (texel(i, j1) * (1.0F - fx) + texel(i1, j1) * fx) * fy;
+            const std::size_t at = std::size_t(y) * grid.width + std::size_t(x);
+            fine[at] = value;
+            after += dvec3(value) * grid.area[at];
+        }
+    }
+    Rgb scale(0.0F);
+    for (int k = 0; k < 3; ++k) {
+        scale[k] = float(after[k] > 0.0 ? before[k] / after[k] : 0.0);
+    }
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        image[i] += fine[i] * scale;
+    }
 }
 
 std::vector<Rgb> spiral_means(const std::vector<Rgb>& histogram, const TexelGrid& grid, float reach) {

@@ -12,14 +12,32 @@ struct KernelLimits {
     float most = 64.0F;   ///< longest half axis
 };
 
+/// The texels that kernels may light, and where the chart ends: in texels of the grid.
+struct LitRange {
+    std::array<int, 2> first{0, 0};
+    std::array<int, 2> last{0, 0}; ///< one behind the last
+    vec2 edge_low{-1.0F, -1.0F};   ///< the chart's own edges, where kernels are folded back; negative: not here
+    vec2 edge_high{-1.0F, -1.0F};
+};
+
 /// Spreads the power of a landing over the texels of a grid by an Epanechnikov kernel on its footprint: phi (1 - q), q =
 /// x^T M^-1 x < 1, M = footprint + least^2 (photon differentials, Schjoth et al. 2007). Weights are scaled over the surface
 /// in the texels, so the power is kept at the edge of a polygon and of the grid too, and thin slivers of surface do not
-/// glow; at the chart's own edges, where the lit texels end with the grid, kernels are folded back. `first` and `last` bound
-/// the texels that may be lit: [first, last). False where none of them has surface: nothing is added. `sign` = -1 takes a
-/// landing away again. Safe from any thread.
-bool splat(const CausticLanding& landing, const TexelGrid& grid, const std::array<int, 2>& first,
-           const std::array<int, 2>& last, const KernelLimits& limits, CausticAccumulator& sums, double sign = 1.0);
+/// glow; at the chart's own edges kernels are folded back. False where no texel in reach has surface: nothing is added.
+/// `sign` = -1 takes a landing away again. Safe from any thread.
+bool splat(const CausticLanding& landing, const TexelGrid& grid, const LitRange& range, const KernelLimits& limits,
+           CausticAccumulator& sums, double sign = 1.0);
+
+/// Half the width of a landing's kernel across its narrow side, texels of the grid.
+float kernel_width(const CausticLanding& landing, const TexelGrid& grid, const KernelLimits& limits);
+
+/// The same surface in texels of twice the edge.
+TexelGrid coarser(const TexelGrid& grid);
+
+/// Adds what a grid with texels `factor` times as large holds to `image`, bilinear between its texels, within `range` and
+/// scaled to the same power channel by channel.
+void add_coarser(const std::vector<Rgb>& from, const TexelGrid& coarse, int factor, const TexelGrid& grid,
+                 const LitRange& range, std::vector<Rgb>& image);
 
 /// PAPER equation 8: from every texel outwards in rings, until what was met reaches the histogram's largest value or the
 /// radius `reach` (texels); the texel becomes the mean over what was met. The whole is then scaled to the power of the

@@ -34,7 +34,7 @@ float footprint_resolution(std::vector<std::pair<float, float>> axis_and_power, 
     float median = mesh_edge;
     for (const auto& [axis, power] : axis_and_power) {
         below += power;
-        if (below >= 0.5 * all) {
+        if (below >= 0.2 * all) {
             median = axis;
             break;
         }

@@ -124,25 +124,48 @@ void bend(Beam& beam, const RayScene& rays, const Hit& hit, const vec3& in, cons
     }
 }
 
-// Half axes of the kernel: what lies between a particle and its neighbours, and a share of the blur that is there anyway.
+struct Spread { // symmetric 2 x 2
+    float xx = 0.0F, xy = 0.0F, yy = 0.0F;
+    void add(const vec2& v) {
+        xx += v.x * v.x;
+        xy += v.x * v.y;
+        yy += v.y * v.y;
+    }
+    [[nodiscard]] float determinant() const { return std::max(xx * yy - xy * xy, 0.0F); }
+};
+
+// Share of the blur that is there anyway (the source's size, rough surfaces) by which a kernel is widened. Such blur throws
+// neighbours of a stream about, so that their kernels no longer tile the light but fall on it by chance: as many of them
+// must overlap as make their mean smooth, kCrowd times what tiling needs, but never more than the blur itself is wide.
+float blur_share(const Spread& own, const Spread& blur) {
+    constexpr float kCrowd = 20.0F;
+    const float wanted = (kCrowd * kCrowd - 1.0F) * own.determinant(); // det(own + x blur) = kCrowd^2 det(own)
+    const float mixed = own.xx * blur.yy + own.yy * blur.xx - 2.0F * own.xy * blur.xy;
+    const float square = blur.determinant();
+    const float root = std::sqrt(std::max(mixed * mixed + 4.0F * square * wanted, 0.0F));
+    const float below = mixed + root; // x = 2 wanted / (mixed + root): stable where the blur is a line
+    return below > 0.0F ? std::min(2.0F * wanted / below, 1.0F) : 0.0F;
+}
+
+// Half axes of the kernel: what lies between a particle and its neighbours, and a share of the blur.
 void footprint(const Beam& beam, const vec3& normal, std::uint32_t count, Landing& out) {
     constexpr float kSpacing = 3.0F; // of the kernel's diameter over the mean distance of particles
-    const float n = float(std::max(count, 1U));
-    const float own = 0.25F * kSpacing * kSpacing / n;
-    // The source's size and rough surfaces blur by themselves: a kernel of a part of that width, less of it the more
-    // particles there are, takes the noise and leaves the shape.
-    const float blur = std::min(0.25F, 2.0F / std::sqrt(std::sqrt(n)));
     vec3 t;
     vec3 b;
     make_frame(normal, t, b);
-    float xx = 0.0F, xy = 0.0F, yy = 0.0F;
+    const float scale = 0.5F * kSpacing / std::sqrt(float(std::max(count, 1U)));
+    Spread own;
+    Spread blur;
     for (std::size_t k = 0; k < beam.used; ++k) {
-        const float weight = k < 2 ? own : blur * blur;
         const vec2 v(glm::dot(beam.p[k], t), glm::dot(beam.p[k], b));
-        xx += weight * v.x * v.x;
-        xy += weight * v.x * v.y;
-        yy += weight * v.y * v.y;
+        if (k < 2) {
+            own.add(scale * v);
+        } else {
+            blur.add(v);
+        }
     }
+    const float share = blur_share(own, blur);
+    const float xx = own.xx + share * blur.xx, xy = own.xy + share * blur.xy, yy = own.yy + share * blur.yy;
     if (!std::isfinite(xx + xy + yy)) {
         return;
     }

@@ -262,17 +262,18 @@ TEST(CausticTextures, TakingALandingAwayRestoresTheBits) {
     const TexelGrid grid =
         make_grid(domains[0], c.charts, c.mesh->positions, c.triangles, domains[0].low, domains[0].high, 64, 64);
     CausticAccumulator half(grid.size());
-    const std::array<int, 2> first{0, 0}, last{64, 64};
+    LitRange range;
+    range.last = {64, 64};
     for (std::size_t i = 0; i < 1000; ++i) {
-        splat(landings[i], grid, first, last, {}, half);
+        splat(landings[i], grid, range, {}, half);
     }
     CausticAccumulator sums = half;
     for (std::size_t i = 1000; i < 2000; ++i) {
-        splat(landings[i], grid, first, last, {}, sums);
+        splat(landings[i], grid, range, {}, sums);
     }
     EXPECT_FALSE(sums == half);
     for (std::size_t i = 2000; i-- > 1000;) {
-        splat(landings[i], grid, first, last, {}, sums, -1.0);
+        splat(landings[i], grid, range, {}, sums, -1.0);
     }
     EXPECT_TRUE(sums == half);
 }
