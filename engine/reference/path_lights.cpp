@@ -51,7 +51,7 @@ PathLights::PathLights(const Scene& scene, const RayScene& rays) : rays_(rays), 
 void PathLights::add_emitters() {
     density_.resize(rays_.surfaces().size());
     small_.resize(rays_.surfaces().size(), false);
-    const double largest = std::pow(0.05 * double(rays_.bounds().diagonal()), 2.0);
+    const double largest = std::pow(0.1 * double(rays_.bounds().diagonal()), 2.0);
     double total = 0.0;
     for (std::uint32_t s = 0; s < rays_.surfaces().size(); ++s) {
         if (!rays_.material(s).emits()) {

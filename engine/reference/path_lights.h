@@ -44,7 +44,7 @@ public:
     [[nodiscard]] const std::vector<Sun>& suns() const { return suns_; }
     [[nodiscard]] const Rgb& sky_radiance() const { return sky_; }
     [[nodiscard]] bool has_emitters() const { return !emitters_.empty(); }
-    /// An emitting surface so small that no path finds it by chance: below the square of a twentieth of the scene's
+    /// An emitting surface so small that no path finds it by chance: below the square of a tenth of the scene's
     /// diagonal.
     [[nodiscard]] bool small(std::uint32_t surface) const { return small_[surface]; }
     /// Mean luminance of a triangle's emission, cd/m2, as far as it matters for picking; 0 where it does not emit.

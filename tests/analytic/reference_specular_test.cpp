@@ -295,7 +295,7 @@ TEST(ReferenceSpecular, SmallLampsAreFoundOverMirrorsAsLargeOnesAre) {
     // The lit place of a plane mirror once more, from a lamp of 4 cm in place of a point: by particles; and a screen whose
     // other light comes from a large panel over the mirror, by paths. Both against the mirror's image by form factors.
     Scene scene;
-    add_rectangle(scene, "mirror", {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, 8, 8, add_mirror(scene, 0.8F));
+    add_rectangle(scene, "mirror", {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, 2.6F, 2.6F, add_mirror(scene, 0.8F));
     add_rectangle(scene, "screen", {0, 2, 0}, {0, -1, 0}, {1, 0, 0}, 0.2F, 0.2F, add_material(scene, 0.0F));
     const auto lit = [&](float side) {
         Scene with = scene;
