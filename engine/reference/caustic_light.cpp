@@ -1,6 +1,7 @@
 #include "engine/reference/caustic_light.h"
 
 #include "engine/base/rng.h"
+#include "engine/reference/surface_event.h"
 
 namespace atrium {
 namespace {
@@ -14,9 +15,11 @@ void follow(const LightTracer& tracer, const CausticBatch& batch, const RunConte
 
 } // namespace
 
-std::vector<Rgb> caustic_light_on(std::span<const CausticDisc> discs, float radius, const LightTracer& tracer,
-                                  const CausticBatch& batch, const RunContext& context) {
-    std::vector<dvec3> sums(discs.size(), dvec3(0.0));
+std::vector<Rgb> caustic_light_on(std::span<const CausticDisc> discs, float radius, const RayScene& rays,
+                                  const LightTracer& tracer, const CausticBatch& batch, const RunContext& context) {
+    std::vector<dvec3> crossed(discs.size(), dvec3(0.0)); // lumen
+    std::vector<dvec3> seen(discs.size(), dvec3(0.0));    // lux
+    std::uint64_t landings = 0;
     const auto cross = [&](const CausticLeg& leg) {
         for (std::size_t i = 0; i < discs.size(); ++i) {
             const float down = glm::dot(leg.direction, discs[i].normal);
@@ -27,14 +30,36 @@ std::vector<Rgb> caustic_light_on(std::span<const CausticDisc> discs, float radi
             }
             const vec3 off = leg.direction * t - to;
             if (glm::dot(off, off) <= radius * radius) {
-                sums[i] += dvec3(leg.flux);
+                crossed[i] += dvec3(leg.flux);
             }
         }
     };
-    follow(tracer, batch, context, cross);
+    const auto look = [&](const CausticLeg& leg) {
+        const std::uint64_t bits = hash_combine(hash_combine(batch.key, batch.first), landings++) >> 32;
+        const auto i = std::size_t(bits * discs.size() >> 32);
+        const vec3 from = clear_of(leg.from + leg.direction * leg.length, leg.side);
+        const vec3 d = discs[i].centre - from;
+        const float distance2 = glm::dot(d, d);
+        const float distance = std::sqrt(distance2);
+        const float cosines = -glm::dot(d, discs[i].normal) * glm::dot(d, leg.side);
+        if (glm::dot(d, leg.side) > 0.0F && cosines > 0.0F && distance > 0.0F) {
+            const Rgb through = rays.transmittance(Ray{from, d / distance, distance});
+            seen[i] +=
+                dvec3(leg.scattered * through) * double(kInvPi * cosines / (distance2 * distance2)) * double(discs.size());
+        }
+    };
+    follow(tracer, batch, context, [&](const CausticLeg& leg) {
+        if (leg.mirrored) {
+            cross(leg);
+        }
+        if (max_component(leg.scattered) > 0.0F) {
+            look(leg);
+        }
+    });
     std::vector<Rgb> out;
-    for (const dvec3& sum : sums) {
-        out.emplace_back(sum / (double(batch.count) * kPiD * double(radius) * double(radius)));
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+        const dvec3 lux = crossed[i] / (kPiD * double(radius) * double(radius)) + seen[i];
+        out.emplace_back(lux / double(batch.count));
     }
     return out;
 }

@@ -21,10 +21,12 @@ struct CausticBatch {
     std::uint64_t count = 0;
 };
 
-/// Irradiance on each disc from a batch of particles: what the reference's paths leave out, with everything that it becomes
-/// over further bounces. Lux, mean over the disc. Stopped, it returns soon, and nothing of use.
-std::vector<Rgb> caustic_light_on(std::span<const CausticDisc> discs, float radius, const LightTracer& tracer,
-                                  const CausticBatch& batch, const RunContext& context);
+/// Irradiance on each disc from a batch of particles, lux: what the reference's paths leave out, with everything that it
+/// becomes over further bounces. Light that comes over mirrors and glass last is a mean over the disc. Light that a matt
+/// surface sends straight is that at its middle: wherever particles are scattered, one disc picked at random is looked at.
+/// Stopped, it returns soon, and nothing of use.
+std::vector<Rgb> caustic_light_on(std::span<const CausticDisc> discs, float radius, const RayScene& rays,
+                                  const LightTracer& tracer, const CausticBatch& batch, const RunContext& context);
 
 /// Where the particles of one stream landed. Immutable once built; safe from any thread.
 class CausticMap {

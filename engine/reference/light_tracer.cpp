@@ -156,6 +156,7 @@ void LightTracer::trace(std::uint64_t key, std::uint64_t index, bool scatter, co
         leg.direction = ray.direction;
         leg.length = hit ? hit.t : std::numeric_limits<float>::infinity();
         leg.lands = false;
+        leg.scattered = Rgb(0.0F);
         if (!hit) {
             if (bent) {
                 visit(leg);
@@ -167,6 +168,7 @@ void LightTracer::trace(std::uint64_t key, std::uint64_t index, bool scatter, co
         if (bent) {
             leg.lands = side_reflects(rays_, hit) && (!at.specular || max_component(at.diffuse) > 0.0F);
             leg.side = at.side;
+            leg.scattered = leg.flux * at.diffuse;
             visit(leg);
         }
         SpecularSample way;
@@ -185,6 +187,7 @@ void LightTracer::trace(std::uint64_t key, std::uint64_t index, bool scatter, co
         if (pick < stay) {
             leg.flux *= at.diffuse * (all / stay);
             leg.first = false;
+            leg.mirrored = false;
             const float u = numbers.next();
             ray = {clear_of(at.position, at.side), cosine_direction(at.side, u, numbers.next())};
         } else if (pick < stay + pass || !(bend > 0.0F)) {
@@ -197,6 +200,7 @@ void LightTracer::trace(std::uint64_t key, std::uint64_t index, bool scatter, co
             leg.flux *= way.weight * (all / bend);
             ray = {start_of(at, way), way.direction};
             bent = true;
+            leg.mirrored = true;
         }
         const float left = max_component(leg.flux) / (kRouletteBelow * first_flux);
         const float survival = hits > kLongWay ? std::min(left, 0.9F) : left;

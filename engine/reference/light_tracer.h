@@ -15,8 +15,10 @@ struct CausticLeg {
     float length = 0.0F;  ///< metres; infinite where it leaves the scene
     Rgb flux{0.0F};       ///< lumen, for the mean over all particles: already over the probability of this way
     bool first = true;    ///< not scattered diffusely yet
+    bool mirrored = true; ///< mirrored or bent since it was last scattered diffusely
     bool lands = false;   ///< ends on a side that is not black, nor all mirror or glass
     vec3 side{0.0F};      ///< unit normal of that side
+    Rgb scattered{0.0F};  ///< lumen that the side reflects diffusely of it
 };
 
 /// Random particles of suns, lamps and emitters, aimed at what mirrors and bends light. One that meets a diffuse surface

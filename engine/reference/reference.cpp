@@ -218,7 +218,7 @@ Result<ReferenceReadings> reference_irradiance(const Scene& scene, const std::ve
         parallel_chunks(kStreams, 1, [&](std::size_t from, std::size_t to, std::size_t) {
             for (std::size_t s = from; s < to && !context.should_stop(); ++s) {
                 const std::uint64_t key = hash_combine(hash_combine(0xCA57ULL, settings.seed), s);
-                caustics[s] = caustic_light_on(discs, radius, particles, {key, traced, count}, context);
+                caustics[s] = caustic_light_on(discs, radius, rays, particles, {key, traced, count}, context);
             }
         });
         traced += count;

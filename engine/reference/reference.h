@@ -26,8 +26,9 @@ struct ReferenceSettings {
     Transport transport = Transport::Full;
     std::uint32_t seed = 1;
     /// What suns, lamps and small emitters send over mirrors and glass is counted in a disc of this radius about each point
-    /// (in pictures about what each path of the eye comes to first), metres; such light is blurred by as much. 0 = a
-    /// thousandth of the scene's diagonal (5 mm in a room of 5 m), three thousandths in pictures.
+    /// (in pictures about what each path of the eye comes to first), metres: such light is blurred by as much where it comes
+    /// over them last, and in pictures after further bounces too. Larger discs settle sooner. 0 = a thousandth of the
+    /// scene's diagonal (5 mm in a room of 5 m), three thousandths in pictures.
     float caustic_radius = 0.0F;
     /// Standard error to reach, relative, at every point; points darker than 1 % of the mean count as that bright.
     /// 0 = no such aim.

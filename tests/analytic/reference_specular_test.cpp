@@ -239,15 +239,15 @@ TEST(ReferenceSpecular, EnergyOfARoomWithAMirrorBall) {
             weight.push_back(0.4 * glm::length(glm::cross(u[face], v[face])) / (kSide * kSide));
         }
     }
-    const ReferenceReadings r = measured(scene, points, 64, 0.07F);
+    const ReferenceReadings r = measured(scene, points, 256, 0.07F);
     double absorbed = 0.0;
     double variance = 0.0; // of independent points: particles cross many discs, so a little too small
     for (std::size_t i = 0; i < points.size(); ++i) {
         absorbed += weight[i] * luminance(r.points[i].irradiance);
         variance += weight[i] * weight[i] * r.points[i].standard_error * r.points[i].standard_error;
     }
-    EXPECT_LE(std::sqrt(variance), 3.0);
-    EXPECT_NEAR(absorbed, 1000.0, 4.0 * std::sqrt(variance) + 8.0);
+    EXPECT_LE(std::sqrt(variance), 2.0);
+    EXPECT_NEAR(absorbed, 1000.0, 4.0 * std::sqrt(variance) + 3.0);
 }
 
 Scene furnace_with_balls() {
