@@ -26,6 +26,7 @@ struct Arguments {
     std::string size = "640x360";
     double time = 60.0;
     double error = 0.0;
+    double caustic_radius = 0.0;
     SolveArguments common; ///< threads, seed, daylight, progress
 };
 
@@ -46,6 +47,7 @@ ReferenceSettings settings_for(const Scene& scene, const Arguments& a) {
     ReferenceSettings settings;
     settings.seed = a.common.seed.value_or(scene.settings.seed);
     settings.relative_error = a.error;
+    settings.caustic_radius = float(a.caustic_radius);
     return settings;
 }
 
@@ -128,10 +130,6 @@ int draw(const Arguments& a) {
         error.file = error.file.empty() ? a.file : error.file;
         return refuse(error);
     }
-    if (find_feature(scene_features(opened->scene), "specular_view").used) {
-        complain(
-            "note: mirrors, metals and glass are drawn as the diffuse reflectors that the light solution takes them for");
-    }
     auto result = reference_picture(opened->scene, {camera->to_world, camera->lens, size->first, size->second},
                                     settings_for(opened->scene, a), context_for(a));
     finish_progress();
@@ -172,8 +170,8 @@ void add_reference(CLI::App& app, int& status) {
     CLI::App* command = app.add_subcommand(
         "reference",
         "The light by brute force (path tracing), unbiased and with its own standard error.\n"
-        "It follows the same transport as the light solution: mirrors and metals count as diffuse reflectors, light "
-        "passes glass straight.");
+        "It follows light over matt surfaces, mirrors, metals and glass in any order. What lamps and suns send over mirrors "
+        "and glass is counted in a disc about each point: see --caustic-radius.");
     command->add_option("FILE", a->file, "Scene: .gltf, .glb or .atrium")->required();
     command->add_option("--points", a->points, "CSV with the header x,y,z,nx,ny,nz: irradiance there");
     command->add_option("--camera", a->camera, "Name or index of a camera: radiance of every pixel");
@@ -184,6 +182,12 @@ void add_reference(CLI::App& app, int& status) {
     command->add_option("--time", a->time, "Stop after this many seconds (default 60)")->check(CLI::Range(1e-3, 1e7));
     command->add_option("--error", a->error, "Stop at this relative standard error of every point or pixel, as 0.01")
         ->check(CLI::Range(1e-6, 1.0));
+    command
+        ->add_option("--caustic-radius", a->caustic_radius,
+                     "Radius of that disc in metres (default: a thousandth of the scene's diagonal, 3 in pictures); such "
+                     "light is blurred "
+                     "by as much")
+        ->check(CLI::Range(1e-5, 1e3));
     command->add_option("--threads", a->common.threads, "Number of worker threads, 0 = one per core")
         ->check(CLI::Range(0U, 1024U));
     command->add_option("--seed", a->common.seed, "Seed of the random numbers");

@@ -50,6 +50,8 @@ PathLights::PathLights(const Scene& scene, const RayScene& rays) : rays_(rays), 
 
 void PathLights::add_emitters() {
     density_.resize(rays_.surfaces().size());
+    small_.resize(rays_.surfaces().size(), false);
+    const double largest = std::pow(0.1 * double(rays_.bounds().diagonal()), 2.0);
     double total = 0.0;
     for (std::uint32_t s = 0; s < rays_.surfaces().size(); ++s) {
         if (!rays_.material(s).emits()) {
@@ -57,15 +59,18 @@ void PathLights::add_emitters() {
         }
         const auto count = std::uint32_t(rays_.surfaces()[s].triangles.size());
         density_[s].resize(count, 0.0F);
+        double whole = 0.0;
         for (std::uint32_t t = 0; t < count; ++t) {
             const auto p = rays_.triangle(s, t);
             const double area = 0.5 * double(glm::length(glm::cross(p[1] - p[0], p[2] - p[0])));
             const double mean = mean_emission(rays_, s, t);
             total += area * mean;
+            whole += area;
             density_[s][t] = float(mean); // divided by the total below
             emitters_.push_back({s, t});
             cumulative_.push_back(total);
         }
+        small_[s] = whole < largest;
     }
     for (auto& surface : density_) {
         for (float& d : surface) {

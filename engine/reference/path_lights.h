@@ -44,6 +44,13 @@ public:
     [[nodiscard]] const std::vector<Sun>& suns() const { return suns_; }
     [[nodiscard]] const Rgb& sky_radiance() const { return sky_; }
     [[nodiscard]] bool has_emitters() const { return !emitters_.empty(); }
+    /// An emitting surface so small that no path finds it by chance: below the square of a tenth of the scene's
+    /// diagonal.
+    [[nodiscard]] bool small(std::uint32_t surface) const { return small_[surface]; }
+    /// Mean luminance of a triangle's emission, cd/m2, as far as it matters for picking; 0 where it does not emit.
+    [[nodiscard]] float brightness(std::uint32_t surface, std::uint32_t triangle) const {
+        return area_probability(surface, triangle) * float(cumulative_.empty() ? 0.0 : cumulative_.back());
+    }
     /// Picks a triangle in proportion to its power by `pick`, and a point on it by `u`, both in [0,1).
     [[nodiscard]] EmitterPoint sample_emitter(float pick, const vec2& u) const;
     /// Probability per square metre with which sample_emitter() picks points of a triangle; 0 where it does not emit.
@@ -63,6 +70,7 @@ private:
     std::vector<Sun> suns_;
     Rgb sky_{0.0F};
     std::vector<Emitter> emitters_;
+    std::vector<bool> small_;                 ///< per surface
     std::vector<double> cumulative_;          ///< power up to and including each emitter
     std::vector<std::vector<float>> density_; ///< per surface (empty = none emits) and triangle, per square metre
 };

@@ -8,6 +8,7 @@ namespace {
 constexpr std::size_t kMostLampsByName = 8; // more than this are picked from even at the first vertex
 constexpr float kLampClearance = 2e-4F;     // metres: a lamp that lies on the ceiling shines (as RayScene::transmittance)
 constexpr float kRouletteBelow = 0.25F;     // throughput from which paths may end
+constexpr int kLongLeg = 64;                // hits between two vertices from which paths may end
 
 vec3 cosine_direction(const vec3& n, const vec2& u) {
     vec3 t;
@@ -20,18 +21,7 @@ vec3 cosine_direction(const vec3& n, const vec2& u) {
 
 } // namespace
 
-vec3 clear_of(const vec3& position, const vec3& normal) {
-    const vec3 a = glm::abs(position);
-    return position + normal * std::max(1e-5F, 5e-7F * max_component(a));
-}
-
 PathTracer::PathTracer(const Scene& scene, const RayScene& rays) : rays_(rays), lights_(scene, rays) {}
-
-bool PathTracer::side_reflects(const Hit& hit) const { return hit.front || rays_.surfaces()[hit.surface].back_side; }
-
-float PathTracer::cover(const Material& m, float alpha) {
-    return m.alpha_mode == Material::Alpha::Blend ? std::clamp(alpha, 0.0F, 1.0F) : 1.0F;
-}
 
 Rgb PathTracer::lamps_and_suns(const PathVertex& v, const vec2& u, float pick, bool all_lamps) const {
     Rgb sum(0.0F);
@@ -95,7 +85,8 @@ Rgb PathTracer::emitter(const PathVertex& v, const vec2& u, float pick) const {
     const Material& m = rays_.material(y.surface);
     if (m.alpha_mode != Material::Alpha::Opaque) {
         const float alpha = rays_.base_color(y.surface, y.triangle, y.barycentric).a;
-        emitted *= m.alpha_mode == Material::Alpha::Mask ? (alpha >= m.alpha_cutoff ? 1.0F : 0.0F) : cover(m, alpha);
+        const bool mask = m.alpha_mode == Material::Alpha::Mask;
+        emitted *= mask ? (alpha >= m.alpha_cutoff ? 1.0F : 0.0F) : std::clamp(alpha, 0.0F, 1.0F);
     }
     if (!(max_component(emitted) > 0.0F)) {
         return Rgb(0.0F);
@@ -105,53 +96,75 @@ Rgb PathTracer::emitter(const PathVertex& v, const vec2& u, float pick) const {
     return emitted * (cosine_here / (here + followed)) * rays_.transmittance(Ray{v.origin, direction, distance});
 }
 
+Rgb PathTracer::emission(const SurfacePoint& at, const vec3& start, float density) const {
+    const float from_area = lights_.area_probability(at.hit.surface, at.hit.triangle);
+    if (!(from_area > 0.0F)) {
+        return Rgb(0.0F);
+    }
+    const float cosine = std::abs(glm::dot(at.hit.geometric_normal, at.direction));
+    const vec3 d = at.position - start;
+    const float by_name = density > 0.0F && cosine > 0.0F ? from_area * glm::dot(d, d) / cosine : 0.0F;
+    const float share = by_name > 0.0F ? density / (density + by_name) : 1.0F;
+    return (at.covered * share) * rays_.emission(at.hit.surface, at.hit.triangle, at.hit.barycentric);
+}
+
 PathTracer::Leg PathTracer::follow(Ray ray, float density, bool from_camera, PathSampler& sampler) const {
     Leg leg;
     Rgb weight(1.0F);
     const vec3 start = ray.origin;
-    for (;;) {
+    bool straight = true; // so far: nothing mirrored or bent the ray
+    float within = 0.0F;  // metres since the last face of a solid
+    for (int hits = 1;; ++hits) {
         const Hit hit = rays_.nearest(ray);
         if (!hit) {
             leg.seen += weight * lights_.sky_radiance();
             return leg;
         }
-        const Material& m = rays_.material(hit.surface);
-        const auto p = rays_.triangle(hit.surface, hit.triangle);
-        // From the triangle and not along the ray: the rounding of a point that is metres away is left behind.
-        const vec3 position = p[0] + (p[1] - p[0]) * hit.barycentric.x + (p[2] - p[0]) * hit.barycentric.y;
-        const vec3 side = hit.front ? hit.geometric_normal : -hit.geometric_normal;
-        const bool through_back =
-            from_camera && !hit.front && !m.double_sided && classify(m) != MaterialKind::DielectricSolid;
-        Rgb reflectance(0.0F);
-        Rgb through = through_back ? Rgb(1.0F) : rays_.straight_through(hit, ray.direction);
-        if (!through_back && side_reflects(hit)) {
-            const vec4 color = rays_.base_color(hit.surface, hit.triangle, hit.barycentric);
-            Material at_point = m;
-            at_point.base_color = Rgb(color);
-            const float covered = cover(m, color.a);
-            reflectance = diffuse_reflectance(at_point) * covered;
-            const float from_area = lights_.area_probability(hit.surface, hit.triangle);
-            if (from_area > 0.0F) {
-                const float cosine = std::abs(glm::dot(hit.geometric_normal, ray.direction));
-                const vec3 d = position - start;
-                const float by_name = density > 0.0F && cosine > 0.0F ? from_area * glm::dot(d, d) / cosine : 0.0F;
-                const float share = by_name > 0.0F ? density / (density + by_name) : 1.0F;
-                leg.seen += weight * (covered * share) * rays_.emission(hit.surface, hit.triangle, hit.barycentric);
+        const SurfacePoint at = surface_point(rays_, hit, ray.direction);
+        within += hit.t;
+        if (from_camera && straight && !hit.front && !at.material->double_sided &&
+            classify(*at.material) != MaterialKind::DielectricSolid) {
+            ray.origin = clear_of(at.position, ray.direction);
+            continue;
+        }
+        if (side_reflects(rays_, hit) && (straight || from_camera || !lights_.small(hit.surface))) {
+            leg.seen += weight * emission(at, start, straight ? density : 0.0F);
+        }
+        SpecularSample way;
+        if (at.specular) {
+            way = specular_way(rays_, at, vec3(sampler.next4()), within);
+        }
+        within = bounds_solid(rays_, at) ? 0.0F : within;
+        const float stay = max_component(at.diffuse);
+        const float pass = max_component(at.through);
+        const float bend = max_component(way.weight);
+        const float all = stay + pass + bend;
+        if (!(all > 0.0F)) {
+            return leg;
+        }
+        const float pick = stay < all ? sampler.next1() * all : 0.0F;
+        if (pick < stay) {
+            leg.scatter = weight * at.diffuse * (all / stay);
+            leg.next = {clear_of(at.position, at.side), at.side};
+            return leg;
+        }
+        if (pick < stay + pass || !(bend > 0.0F)) {
+            weight *= at.through * (all / pass);
+            ray.origin = clear_of(at.position, ray.direction);
+        } else {
+            weight *= way.weight * (all / bend);
+            ray = {start_of(at, way), way.direction};
+            straight = false;
+        }
+        // Light that runs round within glass, or is hardly there, ends by chance alone.
+        const float left = max_component(weight);
+        const float survival = hits > kLongLeg ? 0.9F : std::min(left / kRouletteBelow, 1.0F);
+        if (survival < 1.0F && !straight) {
+            if (sampler.next1() >= survival) {
+                return leg;
             }
+            weight /= survival;
         }
-        const float stay = max_component(reflectance);
-        const float pass = max_component(through);
-        if (!(stay + pass > 0.0F)) {
-            return leg;
-        }
-        const float chance = pass > 0.0F ? stay / (stay + pass) : 1.0F;
-        if (chance >= 1.0F || (chance > 0.0F && sampler.next1() < chance)) {
-            leg.scatter = weight * reflectance / chance;
-            leg.next = {clear_of(position, side), side};
-            return leg;
-        }
-        weight *= through / (1.0F - chance);
-        ray.origin = clear_of(position, ray.direction);
     }
 }
 
@@ -205,12 +218,16 @@ bool PathTracer::finds_light(PathVertex v, PathSampler& sampler, unsigned bounce
     return false;
 }
 
-Rgb PathTracer::radiance(Ray ray, PathSampler& sampler) const {
+Rgb PathTracer::radiance(Ray ray, PathSampler& sampler, const VertexLight& vertex_light) const {
     const Leg leg = follow(ray, 0.0F, true, sampler);
     if (!(max_component(leg.scatter) > 0.0F)) {
         return leg.seen;
     }
-    return leg.seen + leg.scatter * kInvPi * irradiance(leg.next, sampler);
+    Rgb there = irradiance(leg.next, sampler);
+    if (vertex_light) {
+        there += vertex_light(leg.next);
+    }
+    return leg.seen + leg.scatter * kInvPi * there;
 }
 
 } // namespace atrium

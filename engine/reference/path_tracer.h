@@ -4,6 +4,9 @@
 
 #include "engine/reference/path_lights.h"
 #include "engine/reference/path_sampler.h"
+#include "engine/reference/surface_event.h"
+
+#include <functional>
 
 namespace atrium {
 
@@ -13,14 +16,15 @@ struct PathVertex {
     vec3 normal{0.0F}; ///< unit, of the receiving plane
 };
 
-/// A point moved off its surface by a few roundings of its coordinates, at least 10 micrometres.
-vec3 clear_of(const vec3& position, const vec3& normal);
-
 /// Unbiased estimates of irradiance and radiance by single paths. Immutable; safe from any thread.
 ///
-/// At every vertex lamps, suns and one point of an emitter are looked for by name (next-event estimation); one more
-/// direction is followed. Emitters are weighted between both ways (balance heuristic); the sky counts where a followed ray
-/// escapes, never by name. Paths end by Russian roulette alone, on their throughput.
+/// Vertices are where light scatters diffusely; between them a path goes straight through panes and over mirrors and glass
+/// by sample_specular(). At every vertex lamps, suns and one point of an emitter are looked for by name (next-event
+/// estimation); one more direction is followed. Emitters are weighted between both ways (balance heuristic); the sky counts
+/// where a followed ray escapes, never by name. Emitters met over mirrors and glass count in full, for nothing else finds
+/// them. What suns, lamps and small emitters (PathLights::small()) send over mirrors and glass before it first meets a
+/// vertex is left out: no path from here finds it, LightTracer does. Paths end by Russian roulette alone, on their
+/// throughput.
 class PathTracer {
 public:
     PathTracer(const Scene& scene, const RayScene& rays);
@@ -28,8 +32,10 @@ public:
     /// Irradiance, lux.
     [[nodiscard]] Rgb irradiance(PathVertex vertex, PathSampler& sampler) const;
     /// Radiance towards the eye along a camera ray, cd/m2. One looks into rooms through the backs of one-sided walls, as in
-    /// the viewport.
-    [[nodiscard]] Rgb radiance(Ray ray, PathSampler& sampler) const;
+    /// the viewport. `vertex_light`, if given, is called at the first vertex and returns irradiance to add there.
+    using VertexLight = std::function<Rgb(const PathVertex&)>;
+    [[nodiscard]] Rgb radiance(Ray ray, PathSampler& sampler, const VertexLight& vertex_light = {}) const;
+    [[nodiscard]] const PathLights& lights() const { return lights_; }
 
     /// True when a path of at most `bounces` bounces meets any light: of many paths, a quick test for places that light does
     /// not reach, as the insides of furniture.
@@ -46,8 +52,7 @@ private:
     Leg follow(Ray ray, float density, bool from_camera, PathSampler& sampler) const;
     Rgb lamps_and_suns(const PathVertex& v, const vec2& u, float pick, bool all_lamps) const;
     Rgb emitter(const PathVertex& v, const vec2& u, float pick) const;
-    [[nodiscard]] bool side_reflects(const Hit& hit) const;
-    [[nodiscard]] static float cover(const Material& m, float alpha);
+    [[nodiscard]] Rgb emission(const SurfacePoint& at, const vec3& start, float density) const;
 
     const RayScene& rays_;
     PathLights lights_;

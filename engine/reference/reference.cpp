@@ -1,6 +1,7 @@
 #include "engine/reference/reference.h"
 
 #include "engine/base/parallel.h"
+#include "engine/reference/caustic_light.h"
 #include "engine/reference/path_tracer.h"
 
 #include <algorithm>
@@ -11,13 +12,27 @@ namespace {
 
 constexpr double kReach = 0.01; // metres: within it a point is put on the surface (CONTRACTS)
 
-using Path = std::function<Rgb(std::size_t item, PathSampler& sampler)>;
+using Path = std::function<Rgb(std::size_t item, unsigned stream, PathSampler& sampler)>;
+/// Called before each round, with the number of its paths per stream.
+using Prepare = std::function<void(std::uint32_t paths)>;
+
+/// Particles of a stream for each of its paths, and bounds of those in one round. A disc is small: it takes many to cross
+/// it.
+constexpr std::uint64_t kParticlesPerPath = 1024;
+constexpr std::uint64_t kLeastParticles = 4096;
+
+constexpr float kRadiusOfPoints = 1e-3F; // of the scene's diagonal, where no radius is asked for
+constexpr float kRadiusOfPictures = 3e-3F;
+
+float caustic_radius(const ReferenceSettings& settings, const RayScene& rays, float share) {
+    return settings.caustic_radius > 0.0F ? settings.caustic_radius : share * rays.bounds().diagonal();
+}
 
 /// Adds up independent streams of paths per item, in rounds.
 class Estimator {
 public:
-    Estimator(std::size_t items, unsigned streams, Path path, const ReferenceSettings& settings)
-        : items_(items), streams_(streams), path_(std::move(path)), settings_(settings),
+    Estimator(std::size_t items, unsigned streams, Path path, Prepare prepare, const ReferenceSettings& settings)
+        : items_(items), streams_(streams), path_(std::move(path)), prepare_(std::move(prepare)), settings_(settings),
           key_(hash_combine(0xA7121ULL, settings.seed)), sums_(items * streams, Rgb(0.0F)) {}
 
     /// False when it was stopped before every item had a first estimate.
@@ -47,6 +62,7 @@ private:
     std::size_t items_;
     unsigned streams_;
     Path path_;
+    Prepare prepare_;
     ReferenceSettings settings_;
     std::uint64_t key_;
     std::vector<dvec3> sums_; ///< per item and stream
@@ -69,6 +85,9 @@ bool Estimator::precise() const {
 
 bool Estimator::round(std::uint32_t paths, const RunContext& context) {
     std::vector<dvec3> fresh(sums_.size(), dvec3(0.0));
+    if (prepare_) {
+        prepare_(paths);
+    }
     parallel_chunks(sums_.size(), std::max<std::size_t>(32 / paths, 1), [&](std::size_t from, std::size_t to, std::size_t) {
         for (std::size_t w = from; w < to; ++w) {
             const std::size_t item = w / streams_;
@@ -78,7 +97,7 @@ bool Estimator::round(std::uint32_t paths, const RunContext& context) {
                     return;
                 }
                 PathSampler sampler(key, paths_ + i);
-                fresh[w] += dvec3(path_(item, sampler));
+                fresh[w] += dvec3(path_(item, unsigned(w % streams_), sampler));
             }
         }
     });
@@ -156,8 +175,7 @@ PathVertex place(const RayScene& rays, const ReferencePoint& point, bool& on_sur
         const vec3 side = hit.front ? hit.geometric_normal : -hit.geometric_normal;
         const double distance = glm::length(at - p);
         const bool has_light = hit.front || rays.surfaces()[hit.surface].back_side;
-        if (has_light && distance < best && glm::dot(side, n) >= 0.7F &&
-            classify(rays.material(hit.surface)) == MaterialKind::Diffuse) {
+        if (has_light && distance < best && glm::dot(side, n) >= 0.7F && !is_specular(rays.material(hit.surface))) {
             best = distance;
             vertex.origin = clear_of(at, side);
             on_surface = true;
@@ -187,9 +205,30 @@ Result<ReferenceReadings> reference_irradiance(const Scene& scene, const std::ve
         vertices[i] = place(rays, points[i], out.points[i].on_surface);
     }
     constexpr unsigned kStreams = 16;
+    const LightTracer particles(rays, tracer.lights(), LightTracer::Emitters::Small);
+    const float radius = caustic_radius(settings, rays, kRadiusOfPoints);
+    std::vector<CausticDisc> discs;
+    for (const PathVertex& v : vertices) {
+        discs.push_back({v.origin, v.normal});
+    }
+    std::vector<std::vector<Rgb>> caustics(kStreams, std::vector<Rgb>(points.size(), Rgb(0.0F)));
+    std::uint64_t traced = 0;
+    const Prepare prepare = [&](std::uint32_t paths) {
+        const std::uint64_t count = std::max(kLeastParticles, paths * kParticlesPerPath);
+        parallel_chunks(kStreams, 1, [&](std::size_t from, std::size_t to, std::size_t) {
+            for (std::size_t s = from; s < to && !context.should_stop(); ++s) {
+                const std::uint64_t key = hash_combine(hash_combine(0xCA57ULL, settings.seed), s);
+                caustics[s] = caustic_light_on(discs, radius, rays, particles, {key, traced, count}, context);
+            }
+        });
+        traced += count;
+    };
     Estimator estimator(
         points.size(), kStreams,
-        [&](std::size_t i, PathSampler& sampler) { return tracer.irradiance(vertices[i], sampler); }, settings);
+        [&](std::size_t i, unsigned stream, PathSampler& sampler) {
+            return tracer.irradiance(vertices[i], sampler) + caustics[stream][i];
+        },
+        particles.useful() ? prepare : Prepare{}, settings);
     if (!estimator.run(context, out.run)) {
         return tl::unexpected(stopped_too_soon());
     }
@@ -219,17 +258,32 @@ Result<ReferencePicture> reference_picture(const Scene& scene, const ReferenceVi
     const float half_height = view.lens.perspective ? std::tan(0.5F * view.lens.yfov) : view.lens.ymag;
     const float half_width = half_height * float(width) / float(height);
     constexpr unsigned kStreams = 8; // of a pixel: a first, noisy picture comes after as many paths
+    const LightTracer particles(rays, tracer.lights(), LightTracer::Emitters::Small);
+    const float radius = caustic_radius(settings, rays, kRadiusOfPictures);
+    std::vector<CausticMap> caustics(kStreams);
+    std::uint64_t traced = 0;
+    const Prepare prepare = [&](std::uint32_t) {
+        constexpr std::uint64_t kPhotons = 1U << 16U;
+        parallel_chunks(kStreams, 1, [&](std::size_t from, std::size_t to, std::size_t) {
+            for (std::size_t s = from; s < to && !context.should_stop(); ++s) {
+                const std::uint64_t key = hash_combine(hash_combine(0xCA57ULL, settings.seed), s);
+                caustics[s] = CausticMap(radius, particles, {key, traced, kPhotons}, context);
+            }
+        });
+        traced += kPhotons;
+    };
     Estimator estimator(
         pixels, kStreams,
-        [&](std::size_t i, PathSampler& sampler) {
+        [&](std::size_t i, unsigned stream, PathSampler& sampler) {
             const vec4 u = sampler.next4();
             const float x = (2.0F * (float(i % std::size_t(width)) + u.x) / float(width) - 1.0F) * half_width;
             const float y = (1.0F - 2.0F * (float(i / std::size_t(width)) + u.y) / float(height)) * half_height;
             const Ray ray = view.lens.perspective ? Ray{eye, glm::normalize(forward + x * right + y * up)}
                                                   : Ray{eye + x * right + y * up, forward};
-            return tracer.radiance(ray, sampler);
+            return tracer.radiance(ray, sampler,
+                                   [&](const PathVertex& v) { return caustics[stream].irradiance(v.origin, v.normal); });
         },
-        settings);
+        particles.useful() ? prepare : Prepare{}, settings);
     if (!estimator.run(context, out.run)) {
         return tl::unexpected(stopped_too_soon());
     }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs scenes/sunlit_room/make_room.py on a copy and compares what it writes with the files that ship."""
+"""Runs the scripts of all scenes on a copy and compares what they write with the files that ship."""
 import os
 import shutil
 import struct
@@ -8,7 +8,15 @@ import sys
 import tempfile
 import zlib
 
-FILES = ["sunlit_room.gltf", "sunlit_room.bin", "wood_floor.png", "rug.png", "print_hills.png", "print_dusk.png"]
+# Folder, script and what it writes.
+SCENES = [
+    ("sunlit_room", "make_room.py",
+     ["sunlit_room.gltf", "sunlit_room.bin", "wood_floor.png", "rug.png", "print_hills.png", "print_dusk.png"]),
+    ("ring", "make_ring.py", ["ring.glb"]),
+    ("glass-ball", "make_glass_ball.py", ["glass-ball.glb"]),
+    ("sun-mirror", "make_sun_mirror.py", ["sun-mirror.glb"]),
+    ("lamp", "make_lamp.py", ["lamp.glb"]),
+]
 
 
 def content(path):
@@ -28,15 +36,21 @@ def content(path):
 
 
 def main():
-    source = os.path.join(sys.argv[1], "scenes", "sunlit_room")
+    source = os.path.join(sys.argv[1], "scenes")
+    stale = []
     with tempfile.TemporaryDirectory() as folder:
-        shutil.copy(os.path.join(source, "make_room.py"), folder)
-        subprocess.run([sys.executable, os.path.join(folder, "make_room.py")], check=True)
-        stale = [name for name in FILES if content(os.path.join(source, name)) != content(os.path.join(folder, name))]
+        shutil.copy(os.path.join(source, "small_scene.py"), folder)
+        for scene, script, _ in SCENES:
+            os.mkdir(os.path.join(folder, scene))
+            shutil.copy(os.path.join(source, scene, script), os.path.join(folder, scene))
+        for scene, script, files in SCENES:
+            subprocess.run([sys.executable, os.path.join(folder, scene, script)], check=True)
+            stale += ["%s/%s" % (scene, name) for name in files
+                      if content(os.path.join(source, scene, name)) != content(os.path.join(folder, scene, name))]
     if stale:
-        print("not what make_room.py writes: %s. Run it and commit the result." % ", ".join(stale))
+        print("not what the script beside it writes: %s. Run it and commit the result." % ", ".join(stale))
         return 1
-    print("%d files are as make_room.py writes them" % len(FILES))
+    print("%d files are as their scripts write them" % sum(len(files) for _, _, files in SCENES))
     return 0
 
 
