@@ -14,13 +14,14 @@
 namespace atrium {
 namespace {
 
-constexpr std::size_t kMostBoxes = 16; // of a chart
-constexpr double kBoxWaste = 1.2;      // two boxes become one when it is hardly larger than both
-constexpr int kMostTexels = 8192;      // a side of a chart's grid
-constexpr float kLongestAxis = 0.2F;   // of a kernel, as a share of its texture
-constexpr double kManyPerTexel = 8.0;  // landings a texel from which the least kernel may shrink
-constexpr float kLeastOfMany = 0.3F;   // texels: what it shrinks to
-constexpr float kWidest = 3.0F;        // texels: kernels of a larger half width go to coarser texels
+constexpr std::size_t kMostBoxes = 16;   // of a chart
+constexpr double kBoxWaste = 1.2;        // two boxes become one when it is hardly larger than both
+constexpr int kMostTexels = 8192;        // a side of a chart's grid
+constexpr float kLongestAxis = 0.2F;     // of a kernel, as a share of its texture
+constexpr double kManyPerTexel = 8.0;    // landings a texel from which the least kernel may shrink
+constexpr float kLeastOfMany = 0.3F;     // texels: what it shrinks to
+constexpr float kWidest = 3.0F;          // texels: kernels of a larger half width go to coarser texels
+constexpr std::size_t kShared = 200'000; // landings on a chart that several threads share
 constexpr std::size_t kGrain = 4096;
 
 /// One chart, its landings and what is decided about them.
@@ -250,7 +251,9 @@ private:
             limits.most = std::max(kLongestAxis * float(std::max(width, height)), 2.0F);
             std::vector<Level> levels = make_levels(grid, box, width, height, limits);
             std::vector<std::uint8_t> lost(mine_.size(), 0);
-            parallel_chunks(mine_.size(), kGrain, [&](std::size_t begin, std::size_t end, std::size_t) {
+            // Charts are built side by side; only a large one is worth sharing out.
+            const bool shared = mine_.size() > kShared;
+            const auto some = [&](std::size_t begin, std::size_t end, std::size_t) {
                 for (std::size_t k = begin; k < end; ++k) {
                     if (of_box[k] != b) {
                         continue;
@@ -261,9 +264,14 @@ private:
                         ++level;
                     }
                     Level& at = levels[level];
-                    lost[k] = splat(l, at.grid, at.range, at.limits, at.sums) ? 0 : 1;
+                    lost[k] = splat(l, at.grid, at.range, at.limits, at.sums, shared) ? 0 : 1;
                 }
-            });
+            };
+            if (shared) {
+                parallel_chunks(mine_.size(), kGrain, some);
+            } else {
+                some(0, mine_.size(), 0);
+            }
             for (std::size_t k = 0; k < mine_.size(); ++k) {
                 if (of_box[k] == b && lost[k] == 0) {
                     record_.power_texture += luminance(landings_[mine_[k]].power);
@@ -419,11 +427,18 @@ CausticSide build_caustics(std::span<const CausticLanding> landings, const Surfa
         of_chart[chart].push_back(i);
         ++charted;
     }
-    for (std::size_t c = 0; c < domains.size(); ++c) {
+    std::vector<CausticSide> parts(domains.size());
+    parallel_chunks(domains.size(), 1, [&](std::size_t c, std::size_t, std::size_t) {
         if (!of_chart[c].empty()) {
             const double share = double(of_chart[c].size()) / double(charted); // of the memory, by particles
-            ChartBuild(domains[c], landings, std::move(of_chart[c]), charts, positions, triangles, settings, out).run(share);
+            ChartBuild(domains[c], landings, std::move(of_chart[c]), charts, positions, triangles, settings, parts[c])
+                .run(share);
         }
+    });
+    for (CausticSide& part : parts) {
+        out.textures.insert(out.textures.end(), part.textures.begin(), part.textures.end());
+        out.records.insert(out.records.end(), part.records.begin(), part.records.end());
+        out.on_mesh.insert(out.on_mesh.end(), part.on_mesh.begin(), part.on_mesh.end());
     }
     std::sort(out.on_mesh.begin(), out.on_mesh.end());
     return out;

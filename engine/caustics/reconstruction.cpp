@@ -36,7 +36,7 @@ Spread kernel_of(const CausticLanding& landing, const TexelGrid& grid, const Ker
 } // namespace
 
 bool splat(const CausticLanding& landing, const TexelGrid& grid, const LitRange& range, const KernelLimits& limits,
-           CausticAccumulator& sums, double sign) {
+           CausticAccumulator& sums, bool shared, double sign) {
     const Spread m = kernel_of(landing, grid, limits);
     const std::array<int, 2>& first = range.first;
     const std::array<int, 2>& last = range.last;
@@ -83,7 +83,7 @@ bool splat(const CausticLanding& landing, const TexelGrid& grid, const LitRange&
         const dvec3 scaled = dvec3(landing.power) * (sign / total);
         for_each([&](std::size_t i, double w) {
             if (grid.area[i] > 0.0) {
-                sums.add(i, scaled * w);
+                shared ? sums.add_shared(i, scaled * w) : sums.add(i, scaled * w);
             }
         });
         return true;
@@ -95,7 +95,8 @@ bool splat(const CausticLanding& landing, const TexelGrid& grid, const LitRange&
     if (last[0] <= first[0] || last[1] <= first[1] || !(grid.area[i] > 0.0)) {
         return false;
     }
-    sums.add(i, dvec3(landing.power) * (sign / grid.area[i]));
+    const dvec3 all = dvec3(landing.power) * (sign / grid.area[i]);
+    shared ? sums.add_shared(i, all) : sums.add(i, all);
     return true;
 }
 

@@ -24,9 +24,9 @@ struct LitRange {
 /// x^T M^-1 x < 1, M = footprint + least^2 (photon differentials, Schjoth et al. 2007). Weights are scaled over the surface
 /// in the texels, so the power is kept at the edge of a polygon and of the grid too, and thin slivers of surface do not
 /// glow; at the chart's own edges kernels are folded back. False where no texel in reach has surface: nothing is added.
-/// `sign` = -1 takes a landing away again. Safe from any thread.
+/// `shared`: other threads add to the same sums. `sign` = -1 takes a landing away again.
 bool splat(const CausticLanding& landing, const TexelGrid& grid, const LitRange& range, const KernelLimits& limits,
-           CausticAccumulator& sums, double sign = 1.0);
+           CausticAccumulator& sums, bool shared = false, double sign = 1.0);
 
 /// Half the width of a landing's kernel across its narrow side, texels of the grid.
 float kernel_width(const CausticLanding& landing, const TexelGrid& grid, const KernelLimits& limits);

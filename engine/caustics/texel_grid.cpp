@@ -39,6 +39,12 @@ double area_of(const Clipped& c) {
     return 0.5 * std::abs(sum);
 }
 
+// To the nearest whole number of quanta, halves away from zero: an amount and its negative cancel.
+std::int64_t quanta(double lux) {
+    const double q = std::clamp(lux * (1.0 / CausticAccumulator::kQuantum), -4e18, 4e18);
+    return std::int64_t(q < 0.0 ? q - 0.5 : q + 0.5);
+}
+
 } // namespace
 
 std::vector<ChartDomain> chart_domains(const SurfaceCharts& charts, std::span<const vec3> positions,
@@ -131,8 +137,14 @@ TexelGrid make_grid(const ChartDomain& domain, const SurfaceCharts& charts, std:
 
 void CausticAccumulator::add(std::size_t texel, const dvec3& irradiance) {
     for (int k = 0; k < 3; ++k) {
-        const auto amount = std::int64_t(std::llround(std::clamp(irradiance[k] / kQuantum, -9e18, 9e18)));
-        std::atomic_ref<std::int64_t>(sums_[3 * texel + std::size_t(k)]).fetch_add(amount, std::memory_order_relaxed);
+        sums_[3 * texel + std::size_t(k)] += quanta(irradiance[k]);
+    }
+}
+
+void CausticAccumulator::add_shared(std::size_t texel, const dvec3& irradiance) {
+    for (int k = 0; k < 3; ++k) {
+        std::atomic_ref<std::int64_t>(sums_[3 * texel + std::size_t(k)])
+            .fetch_add(quanta(irradiance[k]), std::memory_order_relaxed);
     }
 }
 

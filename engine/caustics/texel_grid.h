@@ -45,8 +45,10 @@ class CausticAccumulator {
 public:
     static constexpr double kQuantum = 0x1.0p-28;
     explicit CausticAccumulator(std::size_t texels) : sums_(3 * texels, 0) {}
-    /// Adds irradiance (lux; negative takes it away) to a texel. Safe from any thread.
+    /// Adds irradiance (lux; negative takes it away) to a texel. One thread at a time.
     void add(std::size_t texel, const dvec3& irradiance);
+    /// The same from any thread.
+    void add_shared(std::size_t texel, const dvec3& irradiance);
     [[nodiscard]] std::vector<Rgb> image() const;
     friend bool operator==(const CausticAccumulator&, const CausticAccumulator&) = default;
 
