@@ -10,7 +10,7 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from support import CLI, ROOM, SHARED, CliTest, exr_values  # noqa: E402
+from support import CLI, ROOM, SHARED, SOURCE, CliTest, exr_values  # noqa: E402
 
 FEATURES = ["particles", "caustic_textures", "octree", "refraction", "glossy", "sun", "sky", "textures", "direct_layer",
             "specular_view"]
@@ -71,6 +71,11 @@ class InfoAndCheck(CliTest):
         result = json.loads(self.run_cli("check", self.room, "--json").stdout)
         self.assertTrue(result["readable"])
         self.assertEqual(result["errors"], 0)
+
+    def test_shipped_scenes_have_no_problems(self):
+        for name in ("ring", "glass-ball", "sun-mirror", "lamp"):
+            result = json.loads(self.run_cli("check", os.path.join(SOURCE, "scenes", name, name + ".glb"), "--json").stdout)
+            self.assertEqual(result["problems"], [], name)
 
     def test_damaged_files(self):
         text = self.read("room.gltf")
