@@ -135,16 +135,20 @@ struct Spread { // symmetric 2 x 2
 };
 
 // Share of the blur that is there anyway (the source's size, rough surfaces) by which a kernel is widened. Such blur throws
-// neighbours of a stream about, so that their kernels no longer tile the light but fall on it by chance: as many of them
-// must overlap as make their mean smooth, kCrowd times what tiling needs, but never more than the blur itself is wide.
-float blur_share(const Spread& own, const Spread& blur) {
+// neighbours of a stream about: their kernels no longer tile the light but fall on it by chance, n of them over the area of
+// image and blur together. As many must overlap as make their mean smooth, kCrowd times what tiling needs, but never more
+// than the blur itself is wide. `scale` is what own was scaled by.
+float blur_share(const Spread& own, const Spread& blur, float scale) {
     constexpr float kCrowd = 20.0F;
-    const float wanted = (kCrowd * kCrowd - 1.0F) * own.determinant(); // det(own + x blur) = kCrowd^2 det(own)
+    Spread spread = own;
+    spread.xx += scale * scale * blur.xx;
+    spread.xy += scale * scale * blur.xy;
+    spread.yy += scale * scale * blur.yy;
+    const float missing = std::max(kCrowd * kCrowd * spread.determinant() - own.determinant(), 0.0F);
     const float mixed = own.xx * blur.yy + own.yy * blur.xx - 2.0F * own.xy * blur.xy;
-    const float square = blur.determinant();
-    const float root = std::sqrt(std::max(mixed * mixed + 4.0F * square * wanted, 0.0F));
-    const float below = mixed + root; // x = 2 wanted / (mixed + root): stable where the blur is a line
-    return below > 0.0F ? std::min(2.0F * wanted / below, 1.0F) : 0.0F;
+    const float root = std::sqrt(std::max(mixed * mixed + 4.0F * blur.determinant() * missing, 0.0F));
+    const float below = mixed + root; // det(own + x blur) = det own + missing, stable where the blur is a line
+    return below > 0.0F ? std::min(2.0F * missing / below, 1.0F) : 0.0F;
 }
 
 // Half axes of the kernel: what lies between a particle and its neighbours, and a share of the blur.
@@ -164,7 +168,7 @@ void footprint(const Beam& beam, const vec3& normal, std::uint32_t count, Landin
             blur.add(v);
         }
     }
-    const float share = blur_share(own, blur);
+    const float share = blur_share(own, blur, scale);
     const float xx = own.xx + share * blur.xx, xy = own.xy + share * blur.xy, yy = own.yy + share * blur.yy;
     if (!std::isfinite(xx + xy + yy)) {
         return;

@@ -60,22 +60,29 @@ TEST_F(Features, ADiffuseSceneNeedsNothing) {
     EXPECT_FALSE(get("specular_view").used);
 }
 
-TEST_F(Features, MirrorsAreSeenInStillsButNotSimulated) {
+TEST_F(Features, MirrorsNeedParticlesWhereSomethingShinesOnThem) {
     add(mirror());
     EXPECT_TRUE(get("specular_view").used);
     EXPECT_THAT(get("specular_view").why, HasSubstr("1 mirror."));
     EXPECT_FALSE(get("particles").used);
-    EXPECT_THAT(get("particles").why, HasSubstr("Not simulated in this version: mirrors and metals count as diffuse"));
+    EXPECT_THAT(get("particles").why, HasSubstr("No lamp, sun or luminous surface shines on the scene's 1 mirror"));
     EXPECT_EQ(get("refraction").why, "There is no glass in the scene.");
+    add(Light{});
+    EXPECT_TRUE(get("particles").used);
+    EXPECT_TRUE(get("caustic_textures").used);
+    EXPECT_THAT(get("particles").why, HasSubstr("1 mirror"));
+    EXPECT_FALSE(get("octree").used);
+    EXPECT_EQ(get("octree").why, "Nothing is selected to move.");
 }
 
-TEST_F(Features, GlassLetsLightPassStraight) {
+TEST_F(Features, SolidGlassBendsLight) {
     add(glass(0.0F));
+    EXPECT_FALSE(get("refraction").used);
+    EXPECT_THAT(get("refraction").why, HasSubstr("thin sheets"));
     add(glass(0.01F));
     EXPECT_TRUE(get("transmittance").used);
-    EXPECT_EQ(get("transmittance").why, "Light passes 2 glass surfaces straight.");
-    EXPECT_FALSE(get("refraction").used);
-    EXPECT_THAT(get("refraction").why, HasSubstr("1 bounds a solid"));
+    EXPECT_TRUE(get("refraction").used);
+    EXPECT_THAT(get("refraction").why, HasSubstr("1 solid of glass"));
     EXPECT_TRUE(get("specular_view").used);
 }
 
