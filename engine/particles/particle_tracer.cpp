@@ -13,6 +13,11 @@ namespace {
 // target; 2, 3 are the source's size; 4, 5 the lobe of a rough surface on the way.
 constexpr std::size_t kPairs = 6;
 constexpr std::uint32_t kLobeStream = 0x9E3779B9U; // apart from the stream that the particle was emitted by
+// The lobe's numbers in an order of their own: in the particles' order they would agree with the emission's in their leading
+// bits (Burley 2020). Strata of powers of two stay whole, so streams stay nested.
+std::uint32_t shuffled(std::uint32_t index, std::uint32_t seed) {
+    return reverse_bits(owen_scramble_reversed(reverse_bits(index), seed * 0x85EBCA6BU + kLobeStream));
+}
 struct Beam {
     std::array<vec3, kPairs> p{};
     std::array<vec3, kPairs> d{};
@@ -256,12 +261,12 @@ void trace_particle(const RayScene& rays, const SpecularTargets& targets, const 
             const Material& m = rays.material(hit.surface);
             vec3 u(0.5F);
             if (m.roughness >= kMirrorRoughness) {
-                const vec2 lobe = sobol_owen2(index, 0, seed ^ kLobeStream);
+                const vec2 lobe = sobol_owen2(shuffled(index, seed), 0, seed ^ kLobeStream);
                 u.x = lobe.x;
                 u.y = lobe.y;
             }
             if (m.transmission > 0.0F) {
-                u.z = sobol_owen(index, 2, seed ^ kLobeStream);
+                u.z = sobol_owen(shuffled(index, seed), 2, seed ^ kLobeStream);
             }
             const bool goes_on = bend_on(rays, hit, way, u, how);
             energy.emitted += arrived;

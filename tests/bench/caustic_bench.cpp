@@ -3,6 +3,7 @@
 #include "engine/base/rng.h"
 #include "engine/layers/caustic_layer.h"
 #include "engine/raycast/scene_charts.h"
+#include "engine/reference/reference.h"
 #include "engine/solver/quality.h"
 #include "tests/bench/bench_support.h"
 #include "tests/bench/caustic_scenes.h"
@@ -21,22 +22,6 @@ double wall() { return std::chrono::duration<double>(std::chrono::steady_clock::
 
 /// Irradiance (luminance) per texel of the receiver.
 using Map = std::vector<double>;
-
-/// Landings on the receiver as a histogram: unbiased, noisy.
-Map histogram(const CausticScene& c, const RayScene& rays, const ParticleMap& map, int side) {
-    Map out(std::size_t(side) * std::size_t(side), 0.0);
-    const double texel = double(c.size) * c.size / (double(side) * side);
-    for (const Landing& l : map.landings()) {
-        if (!c.on_receiver(rays, l)) {
-            continue;
-        }
-        const vec2 at = c.place(rays, l) * float(side);
-        if (at.x >= 0.0F && at.y >= 0.0F && at.x < float(side) && at.y < float(side)) {
-            out[std::size_t(at.y) * std::size_t(side) + std::size_t(at.x)] += luminance(map.power(l)) / texel;
-        }
-    }
-    return out;
-}
 
 /// What textures show there, and the rest of the landings at the mesh's resolution.
 Map shown(const CausticScene& c, const RayScene& rays, const std::vector<SurfaceCharts>& charts, const ParticleMap& map,
@@ -99,32 +84,30 @@ ParticleMap trace(const CausticScene& c, const RayScene& rays, const SpecularTar
     return ParticleMap(rays, targets, direct, c.emitters(rays), {}, settings, RunContext{});
 }
 
-void measure(const CausticScene& c, std::uint32_t truth_particles) {
+void measure(const CausticScene& c, std::uint64_t truth_particles) {
     const RayScene rays(c.scene);
     const SpecularTargets targets(rays);
     const DirectLight direct(c.scene, rays);
     const QualitySettings quality = quality_settings(SolverSettings::Quality::Normal, rays.bounds().diagonal(), 0.0);
     const std::vector<SurfaceCharts> charts = chart_surfaces(rays, quality.charts);
-    // Two halves: their difference is the truth's noise.
-    Map halves[2];
-    Map truth(std::size_t(kSide) * kSide, 0.0);
-    constexpr std::uint32_t kPart = 2'000'000;
-    for (int h = 0; h < 2; ++h) {
-        halves[h].assign(truth.size(), 0.0);
-        const std::uint32_t parts = std::max(truth_particles / 2 / kPart, 1U);
-        for (std::uint32_t k = 0; k < parts; ++k) {
-            const ParticleMap map = trace(c, rays, targets, direct, kPart, 1000 + 2 * k + std::uint32_t(h));
-            const Map part = histogram(c, rays, map, kSide);
-            for (std::size_t i = 0; i < truth.size(); ++i) {
-                halves[h][i] += part[i] / parts;
-            }
-        }
+    // The reference: other code, other random numbers.
+    const ReferenceRectangle square{{double(c.corner.x), 1e-6, double(c.corner.y)},
+                                    {double(c.size), 0.0, 0.0},
+                                    {0.0, 0.0, double(c.size)},
+                                    {0.0, 1.0, 0.0}};
+    CausticReferenceSettings reference;
+    reference.particles = truth_particles;
+    const auto found = reference_caustics(c.scene, square, kSide, kSide, reference, RunContext{});
+    if (!found) {
+        fmt::print(stderr, "{}\n", found.error().message());
+        return;
     }
+    Map truth;
     double noise2 = 0.0, size2 = 0.0;
-    for (std::size_t i = 0; i < truth.size(); ++i) {
-        truth[i] = 0.5 * (halves[0][i] + halves[1][i]);
-        noise2 += 0.25 * (halves[0][i] - halves[1][i]) * (halves[0][i] - halves[1][i]);
-        size2 += truth[i] * truth[i];
+    for (std::size_t i = 0; i < found->irradiance.size(); ++i) {
+        truth.push_back(luminance(found->irradiance[i]));
+        noise2 += found->standard_error[i] * found->standard_error[i];
+        size2 += truth.back() * truth.back();
     }
     fmt::print("{}: truth from {} particles, its noise {:.2f} %\n", c.name, truth_particles,
                100.0 * std::sqrt(noise2 / size2));
@@ -229,7 +212,7 @@ int main(int argc, char** argv) {
     using namespace atrium::bench;
     CLI::App app{"Relative RMS error of caustic textures on 256 x 256 texels of the receiver against brute force, paper and "
                  "default mode at equal particles, and the time of both."};
-    std::uint32_t truth = 20'000'000;
+    std::uint64_t truth = 20'000'000;
     std::vector<std::string> only;
     app.add_option("--truth", truth, "particles of the truth");
     app.add_option("--only", only, "names of scenes; 'speed' for reconstruction alone");
