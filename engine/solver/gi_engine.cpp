@@ -451,6 +451,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         }
         s.tell_left_out(statistics.features);
         solution->surfaces = std::move(layers.surfaces);
+        solution->caustic_records = s.caustics.records;
         solution->statistics = statistics;
         latest = std::move(solution);
         if (on_snapshot) {

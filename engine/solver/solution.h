@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/base/result.h"
+#include "engine/caustics/caustic_texture.h"
 #include "engine/layers/surface_layer.h"
 #include "engine/solver/statistics.h"
 
@@ -17,12 +18,13 @@ struct Solution {
     std::uint64_t revision = 0; ///< of the scene that it was computed for
     bool final = false;         ///< false = a first, coarse picture; a better one follows
     std::vector<std::shared_ptr<const SurfaceLayer>> surfaces;
+    std::vector<CausticRecord> caustic_records; ///< what was decided about surfaces that caustic light falls on
     Statistics statistics;
     double mean_radiance = 0; ///< log-average of shown diffuse radiance, cd/m2: what automatic exposure starts from
 };
 
-/// Layers and statistics as compressed bytes for the project file (versioned; ids are stored as indices into `scene`'s
-/// nodes in tree order, so they survive the ids of another session).
+/// Layers, records and statistics as compressed bytes for the project file (versioned; ids are stored as indices into
+/// `scene`'s nodes in tree order, so they survive the ids of another session).
 std::vector<std::byte> encode_solution(const Solution& solution, const Scene& scene);
 /// Reads it back. Damaged, truncated or of another version: an error, and the caller solves again.
 Result<std::shared_ptr<const Solution>> decode_solution(std::span<const std::byte> bytes, const Scene& scene);

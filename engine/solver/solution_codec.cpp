@@ -3,6 +3,7 @@
 #include "engine/solver/light_map_codec.h"
 #include "engine/solver/solution.h"
 
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
@@ -12,7 +13,7 @@ namespace atrium {
 namespace {
 
 constexpr char kMagic[8] = {'A', 'T', 'R', 'L', 'I', 'G', 'H', 'T'};
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::uint64_t kMaxBytes = std::uint64_t(4) << 30;
 constexpr float kLargestChartCoordinate = 1e6F; ///< tiles; no surface has a thousandth of it
 
@@ -45,7 +46,11 @@ nlohmann::json to_json(const Statistics& s) {
             {"error_estimate", s.error_estimate},
             {"link_budget_reached", s.link_budget_reached},
             {"counts", {s.triangles, s.elements, s.clusters, s.links, s.rays}},
-            {"memory", {s.memory.elements, s.memory.links, s.memory.layers, s.memory.ray_scene, s.memory.peak_rss}},
+            {"records", s.records},
+            {"particles", {s.particles_emitted, s.particles_stored}},
+            {"memory",
+             {s.memory.elements, s.memory.links, s.memory.layers, s.memory.ray_scene, s.memory.peak_rss, s.memory.particles,
+              s.memory.octree, s.memory.caustic_textures}},
             {"energy", {s.energy.emitted, s.energy.absorbed, s.energy.escaped, s.energy.defect}}};
 }
 
@@ -74,12 +79,19 @@ Statistics statistics_from(const nlohmann::json& j) {
     s.clusters = c.at(2);
     s.links = c.at(3);
     s.rays = c.at(4);
+    s.records = j.at("records");
+    const auto& p = j.at("particles");
+    s.particles_emitted = p.at(0);
+    s.particles_stored = p.at(1);
     const auto& m = j.at("memory");
     s.memory.elements = m.at(0);
     s.memory.links = m.at(1);
     s.memory.layers = m.at(2);
     s.memory.ray_scene = m.at(3);
     s.memory.peak_rss = m.at(4);
+    s.memory.particles = m.at(5);
+    s.memory.octree = m.at(6);
+    s.memory.caustic_textures = m.at(7);
     const auto& e = j.at("energy");
     s.energy = {e.at(0), e.at(1), e.at(2), e.at(3)};
     return s;
@@ -91,8 +103,9 @@ bool plausible(const SurfaceLayer& layer) {
     const std::size_t n = mesh.positions.size();
     const auto optional = [&](const auto& values) { return values.empty() || values.size() == n; };
     if (mesh.normals.size() != n || layer.irradiance_front.size() != n || !optional(layer.irradiance_back) ||
-        !optional(layer.direct_front) || !optional(layer.direct_back) || !optional(mesh.texcoords0) ||
-        !optional(mesh.texcoords1) || !optional(mesh.colors) || !optional(mesh.light_uv) || mesh.indices.size() % 3 != 0) {
+        !optional(layer.direct_front) || !optional(layer.direct_back) || !optional(layer.caustic_front) ||
+        !optional(layer.caustic_back) || !optional(mesh.texcoords0) || !optional(mesh.texcoords1) ||
+        !optional(mesh.colors) || !optional(mesh.light_uv) || mesh.indices.size() % 3 != 0) {
         return false;
     }
     for (const std::uint32_t i : mesh.indices) {
@@ -101,7 +114,7 @@ bool plausible(const SurfaceLayer& layer) {
         }
     }
     for (const auto* values : {&mesh.positions, &mesh.normals, &layer.irradiance_front, &layer.irradiance_back,
-                               &layer.direct_front, &layer.direct_back}) {
+                               &layer.direct_front, &layer.direct_back, &layer.caustic_front, &layer.caustic_back}) {
         for (const vec3& v : *values) {
             if (!is_finite(v)) {
                 return false;
@@ -152,6 +165,75 @@ bool read_map(ByteReader& in, std::shared_ptr<const LightMap>& out) {
     return good;
 }
 
+void write_textures(ByteWriter& out, const std::vector<std::shared_ptr<const CausticTexture>>& textures) {
+    out.value(std::uint64_t(textures.size()));
+    for (const auto& texture : textures) {
+        out.value(texture->low);
+        out.value(texture->high);
+        out.value(texture->width);
+        out.value(texture->height);
+        out.array(texture->image);
+    }
+}
+// A texture that was read can be evaluated anywhere.
+bool plausible(const CausticTexture& t) {
+    const auto place = [](const vec2& uv) {
+        return std::abs(uv.x) <= kLargestChartCoordinate && std::abs(uv.y) <= kLargestChartCoordinate; // not NaN either
+    };
+    return t.width > 0 && t.height > 0 && t.image.size() == std::uint64_t(t.width) * t.height && place(t.low) &&
+           place(t.high) && t.low.x < t.high.x && t.low.y < t.high.y &&
+           std::all_of(t.image.begin(), t.image.end(), [](const Rgb& e) { return is_finite(e); });
+}
+bool read_textures(ByteReader& in, std::vector<std::shared_ptr<const CausticTexture>>& out) {
+    std::uint64_t count = 0;
+    if (!in.value(count) || count > in.left()) {
+        return false;
+    }
+    for (std::uint64_t i = 0; i < count; ++i) {
+        auto texture = std::make_shared<CausticTexture>();
+        if (!in.value(texture->low) || !in.value(texture->high) || !in.value(texture->width) || !in.value(texture->height) ||
+            !in.array(texture->image) || !plausible(*texture)) {
+            return false;
+        }
+        out.push_back(std::move(texture));
+    }
+    return true;
+}
+
+void write_record(ByteWriter& out, const CausticRecord& r) {
+    out.value(r.part);
+    out.value(r.chart);
+    out.value(std::uint8_t(r.back));
+    out.value(std::uint8_t(r.decision));
+    out.value(r.particles);
+    out.value(r.contrast);
+    out.value(r.dispersion);
+    out.value(r.threshold);
+    out.value(r.extent);
+    out.value(r.width);
+    out.value(r.height);
+    out.array(std::vector<char>(r.why.begin(), r.why.end()));
+    out.array(r.boxes);
+    out.value(r.power_texture);
+    out.value(r.power_mesh);
+    out.value(r.bytes);
+}
+bool read_record(ByteReader& in, CausticRecord& r) {
+    std::uint8_t back = 0, decision = 0;
+    std::vector<char> why;
+    if (!in.value(r.part) || !in.value(r.chart) || !in.value(back) || !in.value(decision) || !in.value(r.particles) ||
+        !in.value(r.contrast) || !in.value(r.dispersion) || !in.value(r.threshold) || !in.value(r.extent) ||
+        !in.value(r.width) || !in.value(r.height) || !in.array(why) || !in.array(r.boxes) || !in.value(r.power_texture) ||
+        !in.value(r.power_mesh) || !in.value(r.bytes) || back > 1 ||
+        decision > std::uint8_t(CausticRecord::Decision::Uncharted)) {
+        return false;
+    }
+    r.back = back != 0;
+    r.decision = CausticRecord::Decision(decision);
+    r.why.assign(why.begin(), why.end());
+    return true;
+}
+
 } // namespace
 
 std::vector<std::byte> encode_solution(const Solution& solution, const Scene& scene) {
@@ -188,6 +270,19 @@ std::vector<std::byte> encode_solution(const Solution& solution, const Scene& sc
         out.array(layer->direct_back);
         write_map(out, layer->direct_map_front);
         write_map(out, layer->direct_map_back);
+        out.array(layer->caustic_front);
+        out.array(layer->caustic_back);
+        write_textures(out, layer->caustic_textures_front);
+        write_textures(out, layer->caustic_textures_back);
+    }
+    const auto kept = [&](const CausticRecord& r) { return order.contains(r.node); };
+    const auto& records = solution.caustic_records;
+    out.value(std::uint64_t(std::count_if(records.begin(), records.end(), kept)));
+    for (const CausticRecord& record : records) {
+        if (kept(record)) {
+            out.value(order.at(record.node));
+            write_record(out, record);
+        }
     }
     Header header{};
     std::memcpy(header.magic, kMagic, sizeof kMagic);
@@ -253,7 +348,8 @@ Result<std::shared_ptr<const Solution>> decode_solution(std::span<const std::byt
             !in.array(mesh->colors) || !in.array(mesh->light_uv) || !in.array(mesh->indices) ||
             !in.array(layer->irradiance_front) || !in.array(layer->irradiance_back) || !in.array(layer->direct_front) ||
             !in.array(layer->direct_back) || !read_map(in, layer->direct_map_front) ||
-            !read_map(in, layer->direct_map_back)) {
+            !read_map(in, layer->direct_map_back) || !in.array(layer->caustic_front) || !in.array(layer->caustic_back) ||
+            !read_textures(in, layer->caustic_textures_front) || !read_textures(in, layer->caustic_textures_back)) {
             return damaged();
         }
         take_steps(mesh->indices);
@@ -263,6 +359,18 @@ Result<std::shared_ptr<const Solution>> decode_solution(std::span<const std::byt
             return damaged();
         }
         solution->surfaces.push_back(std::move(layer));
+    }
+    if (!in.value(count) || count > in.left()) {
+        return damaged();
+    }
+    for (std::uint64_t i = 0; i < count; ++i) {
+        CausticRecord record;
+        std::uint32_t node = 0;
+        if (!in.value(node) || node >= nodes.size() || !read_record(in, record)) {
+            return damaged();
+        }
+        record.node = nodes[node];
+        solution->caustic_records.push_back(std::move(record));
     }
     if (in.left() != 0) {
         return damaged();

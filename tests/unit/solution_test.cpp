@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <functional>
+#include <limits>
 
 namespace atrium {
 namespace {
@@ -28,6 +30,11 @@ bool same_map(const std::shared_ptr<const LightMap>& a, const std::shared_ptr<co
     return same;
 }
 
+bool same_textures(const std::vector<std::shared_ptr<const CausticTexture>>& a,
+                   const std::vector<std::shared_ptr<const CausticTexture>>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) { return *x == *y; });
+}
+
 bool same_layers(const Solution& a, const Solution& b) {
     if (a.surfaces.size() != b.surfaces.size()) {
         return false;
@@ -36,11 +43,14 @@ bool same_layers(const Solution& a, const Solution& b) {
         const SurfaceLayer &x = *a.surfaces[i], &y = *b.surfaces[i];
         if (x.node != y.node || x.part != y.part || !(*x.mesh == *y.mesh) || x.irradiance_front != y.irradiance_front ||
             x.irradiance_back != y.irradiance_back || x.direct_front != y.direct_front || x.direct_back != y.direct_back ||
+            x.caustic_front != y.caustic_front || x.caustic_back != y.caustic_back ||
+            !same_textures(x.caustic_textures_front, y.caustic_textures_front) ||
+            !same_textures(x.caustic_textures_back, y.caustic_textures_back) ||
             !same_map(x.direct_map_front, y.direct_map_front) || !same_map(x.direct_map_back, y.direct_map_back)) {
             return false;
         }
     }
-    return true;
+    return a.caustic_records == b.caustic_records;
 }
 
 NodeId add_shape(Scene& scene, const Geometry& geometry, const dvec3& at, MaterialId material) {
@@ -108,6 +118,120 @@ TEST(SolutionCodec, RoundTripGivesEverythingBack) {
     EXPECT_EQ(encode_solution(**back, room.scene), bytes) << "the same solution gives the same bytes";
 }
 
+CausticTexture sample_texture() {
+    CausticTexture texture;
+    texture.low = {0.25F, 0.5F};
+    texture.high = {1.5F, 1.25F};
+    texture.width = 5;
+    texture.height = 3;
+    for (int i = 0; i < 15; ++i) {
+        texture.image.emplace_back(100.0F + float(i), 1e5F / float(i + 1), 0.0F);
+    }
+    return texture;
+}
+
+/// The room's light with caustic light of every kind added by hand.
+std::shared_ptr<Solution> with_caustics(const StoredRoom& room, const CausticTexture& texture = sample_texture()) {
+    auto out = std::make_shared<Solution>(*room.solution);
+    auto layer = std::make_shared<SurfaceLayer>(*out->surfaces.back()); // the two-sided screen
+    const std::size_t n = layer->mesh->positions.size();
+    layer->caustic_front.assign(n, Rgb(7.0F, 0.0F, 1.0F));
+    layer->caustic_back.assign(n, Rgb(0.0F, 3.5F, 1.0F));
+    layer->caustic_back[0] = Rgb(1e6F, 0.0F, 1e-6F);
+    auto second = sample_texture();
+    second.image[4] = Rgb(9.0F);
+    layer->caustic_textures_front = {std::make_shared<CausticTexture>(texture), std::make_shared<CausticTexture>(second)};
+    layer->caustic_textures_back = {std::make_shared<CausticTexture>(second)};
+    CausticRecord record;
+    record.node = layer->node;
+    record.chart = 2;
+    record.back = true;
+    record.decision = CausticRecord::Decision::Texture;
+    record.particles = 123'456;
+    record.contrast = 0.75F;
+    record.dispersion = 12.5F;
+    record.threshold = 5.0F;
+    record.extent = {1.0F, 2.0F};
+    record.width = 64;
+    record.height = 128;
+    record.why = "bright lines, 5 mm";
+    record.boxes = {vec4(0.0F, 0.25F, 0.5F, 1.0F), vec4(0.5F, 0.0F, 1.0F, 0.5F)};
+    record.power_texture = 12.25;
+    record.power_mesh = 0.5;
+    record.bytes = 4711;
+    out->caustic_records.push_back(record);
+    record.node = out->surfaces.front()->node;
+    record.decision = CausticRecord::Decision::Uncharted;
+    record.why.clear();
+    record.boxes.clear();
+    out->caustic_records.push_back(record);
+    out->statistics.particles_emitted = 1'000'000;
+    out->statistics.particles_stored = 345'678;
+    out->statistics.memory.particles = 11;
+    out->statistics.memory.octree = 12;
+    out->statistics.memory.caustic_textures = 13;
+    out->surfaces.back() = layer;
+    return out;
+}
+
+TEST(SolutionCodec, CausticLightAndRecordsComeBack) {
+    const StoredRoom& room = stored_room();
+    const auto solution = with_caustics(room);
+    const std::vector<std::byte> bytes = encode_solution(*solution, room.scene);
+    const auto back = decode_solution(bytes, room.scene);
+    ASSERT_TRUE(back);
+    EXPECT_TRUE(same_layers(**back, *solution));
+    EXPECT_FALSE(same_layers(**back, *room.solution));
+    ASSERT_EQ((*back)->caustic_records.size(), 2U);
+    EXPECT_EQ((*back)->statistics.particles_emitted, 1'000'000U);
+    EXPECT_EQ((*back)->statistics.particles_stored, 345'678U);
+    EXPECT_EQ((*back)->statistics.memory.particles, 11U);
+    EXPECT_EQ((*back)->statistics.memory.octree, 12U);
+    EXPECT_EQ((*back)->statistics.memory.caustic_textures, 13U);
+    EXPECT_EQ(encode_solution(**back, room.scene), bytes);
+    // Records of nodes that are gone go with them.
+    Scene fewer = room.scene;
+    fewer.nodes.erase(fewer.roots.front());
+    fewer.roots.erase(fewer.roots.begin());
+    ASSERT_EQ(solution->caustic_records[1].node, room.scene.roots.front());
+    const auto rest = decode_solution(encode_solution(*solution, fewer), fewer);
+    ASSERT_TRUE(rest);
+    ASSERT_EQ((*rest)->caustic_records.size(), 1U);
+    EXPECT_EQ((*rest)->caustic_records[0], solution->caustic_records[0]);
+}
+
+TEST(SolutionCodec, CausticLightThatCannotBeIsRefused) {
+    const StoredRoom& room = stored_room();
+    const auto refused = [&](const std::function<void(CausticTexture&)>& damage) {
+        CausticTexture texture = sample_texture();
+        damage(texture);
+        return !decode_solution(encode_solution(*with_caustics(room, texture), room.scene), room.scene);
+    };
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_FALSE(refused([](CausticTexture&) {}));
+    EXPECT_TRUE(refused([](CausticTexture& t) { t.width = 6; }));
+    EXPECT_TRUE(refused([](CausticTexture& t) {
+        t.width = t.height = 0;
+        t.image.clear();
+    }));
+    EXPECT_TRUE(refused([](CausticTexture& t) {
+        t.width = t.height = 0x10000;
+        t.image.clear();
+    })); // wraps to 0
+    EXPECT_TRUE(refused([](CausticTexture& t) { t.high.x = t.low.x; }));
+    EXPECT_TRUE(refused([nan](CausticTexture& t) { t.low.y = nan; }));
+    EXPECT_TRUE(refused([](CausticTexture& t) { t.high.y = 1e30F; }));
+    EXPECT_TRUE(refused([nan](CausticTexture& t) { t.image[3].g = nan; }));
+    auto odd = with_caustics(room);
+    auto layer = std::make_shared<SurfaceLayer>(*odd->surfaces.back());
+    layer->caustic_front.pop_back();
+    odd->surfaces.back() = layer;
+    EXPECT_FALSE(decode_solution(encode_solution(*odd, room.scene), room.scene)) << "not one per vertex";
+    odd = with_caustics(room);
+    odd->caustic_records[0].decision = CausticRecord::Decision(77);
+    EXPECT_FALSE(decode_solution(encode_solution(*odd, room.scene), room.scene));
+}
+
 TEST(SolutionCodec, IdsOfAnotherSessionAreFoundByTreeOrder) {
     const StoredRoom& room = stored_room();
     Scene other; // the same tree with other ids: slots have been used before
@@ -143,7 +267,8 @@ TEST(SolutionCodec, LayersOfNodesThatAreGoneAreLeftOut) {
 
 TEST(SolutionCodec, FlippedBitsNeverGiveOtherLight) {
     const StoredRoom& room = stored_room();
-    std::vector<std::byte> bytes = encode_solution(*room.solution, room.scene);
+    const auto solution = with_caustics(room);
+    std::vector<std::byte> bytes = encode_solution(*solution, room.scene);
     ASSERT_GT(bytes.size(), 1000U);
     int refused = 0, tried = 0;
     const std::size_t stride = std::max<std::size_t>(bytes.size() / 300, 1);
@@ -155,7 +280,7 @@ TEST(SolutionCodec, FlippedBitsNeverGiveOtherLight) {
             ++tried;
             if (back) {
                 // Only what carries no information (reserved bytes) may be damaged unnoticed.
-                EXPECT_TRUE(same_layers(**back, *room.solution)) << "byte " << at << " bit " << bit;
+                EXPECT_TRUE(same_layers(**back, *solution)) << "byte " << at << " bit " << bit;
             } else {
                 ++refused;
                 EXPECT_FALSE(back.error().message().empty());
