@@ -1,7 +1,7 @@
 // Caustic textures on the GPU: all of a surface side in one image and a small table of their rectangles.
 #pragma once
 
-#include "engine/caustics/caustic_texture.h"
+#include "engine/layers/surface_layer.h"
 #include "ui/viewport/gl.h"
 
 #include <QElapsedTimer>
