@@ -42,8 +42,10 @@ class Requests(CliTest):
         for text in ("--quality=best", "--threads=-1", "--threads=many", "--error=0", "--error=2", "--time=-1", "--seed=x"):
             self.refused("solve", self.room, text)
 
-    def test_paper_mode_is_refused_in_words(self):
-        self.refused("solve", self.room, "--mode", "paper", says=["--mode paper", "not in this version"])
+    def test_modes(self):
+        self.run_cli("solve", self.room, "--mode", "paper", "--quality", "draft", "--stats", self.path("paper.json"))
+        self.assertEqual(json.loads(self.read("paper.json"))["mode"], "paper")
+        self.refused("solve", self.room, "--mode", "newest")
 
     def test_missing_file_is_named(self):
         for command in ("info", "check", "solve"):
@@ -307,7 +309,9 @@ class Render(CliTest):
         self.run_cli("render", self.room, "-o", self.path("b.exr"), *size, "--layers", "direct,diffuse,caustic,specular")
         self.assertEqual(json.loads(self.run_cli("compare", self.path("a.exr"), self.path("b.exr"), "--json").stdout)["relMSE"], 0)
         self.refused("render", self.room, "-o", self.path("c.exr"), "--layers", "diffuse,shiny", says=["shiny"])
-        self.refused("render", self.room, "-o", self.path("c.exr"), "--layers", "caustic", says=["direct", "diffuse"])
+        # A room without mirrors and glass has a black caustic layer, and a layer that does not exist is refused.
+        self.run_cli("render", self.room, "-o", self.path("c.exr"), "--layers", "caustic", "--quality", "draft", "--size", "16x16")
+        self.refused("render", self.room, "-o", self.path("n.exr"), "--layers", "nonsense", says=["direct", "diffuse", "caustic"])
 
     def test_direct_and_diffuse_add_up(self):
         document = json.loads(self.read("room.gltf"))
@@ -407,6 +411,23 @@ class Reference(CliTest):
         self.refused("reference", self.room, "--camera", "Nobody", "-o", self.path("a.exr"), says=["Nobody"])
         self.refused("reference", self.room, "--points", self.path("none.csv"), says=["none.csv"])
         self.refused("reference", self.path("none.glb"), "--points", points, says=["none.glb"])
+
+
+class Inspect(CliTest):
+    BALL = os.path.join(os.path.dirname(ROOM), "..", "glass-ball", "glass-ball.glb")
+
+    def test_caustics_of_a_glass_ball(self):
+        out = self.path("textures")
+        done = self.run_cli("inspect", self.BALL, "--json", "--extract", out, "--quality", "draft")
+        told = json.loads(done.stdout)
+        self.assertTrue(any("texture" == r["decision"] for r in told["caustics"]), done.stdout[:2000])
+        self.assertTrue(any(name.endswith(".exr") for name in os.listdir(out)))
+
+    def test_nothing_specular_nothing_listed(self):
+        done = self.run_cli("inspect", self.room, "--json", "--quality", "draft")
+        told = json.loads(done.stdout)
+        self.assertEqual(told["caustics"], [])
+        self.assertEqual(told["memory"]["caustic_textures"], 0)
 
 
 class Compare(CliTest):
