@@ -273,7 +273,7 @@ TEST(CausticTextures, TakingALandingAwayRestoresTheBits) {
     }
     EXPECT_FALSE(sums == half);
     for (std::size_t i = 2000; i-- > 1000;) {
-        splat(landings[i], grid, range, {}, sums, false, -1.0);
+        splat(landings[i], grid, range, {}, sums, -1.0);
     }
     EXPECT_TRUE(sums == half);
 }
