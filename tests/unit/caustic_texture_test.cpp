@@ -1,11 +1,9 @@
 // Caustic textures: chosen, sized, filled and restricted; energy kept, uniform light left alone.
 #include "engine/base/parallel.h"
-#include "engine/base/rng.h"
-#include "engine/caustics/choice.h"
 #include "engine/caustics/reconstruction.h"
 #include "engine/caustics/resolution.h"
 #include "engine/caustics/restriction.h"
-#include "engine/geometry/tessellate.h"
+#include "tests/support/charted.h"
 
 #include <gtest/gtest.h>
 
@@ -15,81 +13,11 @@
 namespace atrium {
 namespace {
 
-// Geometry as triangles with charts.
-struct Charted {
-    explicit Charted(const Geometry& geometry) : mesh(tessellate(geometry)) {
-        for (std::size_t i = 0; i + 2 < mesh->indices.size(); i += 3) {
-            const uvec3 t(mesh->indices[i], mesh->indices[i + 1], mesh->indices[i + 2]);
-            const vec3 n =
-                glm::cross(mesh->positions[t.y] - mesh->positions[t.x], mesh->positions[t.z] - mesh->positions[t.x]);
-            if (glm::dot(n, n) > 0.0F) {
-                triangles.push_back(t);
-                areas.push_back(0.5 * double(glm::length(n)) + (areas.empty() ? 0.0 : areas.back()));
-            }
-        }
-        charts = build_charts(mesh->positions, triangles, curved_domain(geometry, *mesh), ChartSettings{});
-    }
-    // A landing spread by area, from three numbers.
-    [[nodiscard]] CausticLanding landing(float pick, vec2 u) const {
-        CausticLanding l;
-        const auto at = std::upper_bound(areas.begin(), areas.end(), double(pick) * areas.back());
-        l.triangle = std::uint32_t(std::min<std::ptrdiff_t>(at - areas.begin(), std::ptrdiff_t(areas.size()) - 1));
-        if (u.x + u.y > 1.0F) {
-            u = vec2(1.0F) - u;
-        }
-        l.barycentric = u;
-        place(l);
-        return l;
-    }
-    void place(CausticLanding& l) const {
-        const auto& uv = charts.uv[l.triangle];
-        l.uv = uv[0] + (uv[1] - uv[0]) * l.barycentric.x + (uv[2] - uv[0]) * l.barycentric.y;
-    }
-    [[nodiscard]] CausticSide build(const std::vector<CausticLanding>& landings,
-                                    const CausticSettings& settings = {}) const {
-        return build_caustics(landings, charts, mesh->positions, triangles, settings);
-    }
-    std::shared_ptr<const MeshData> mesh;
-    std::vector<uvec3> triangles;
-    std::vector<double> areas;
-    SurfaceCharts charts;
-};
-
-Geometry rectangle(float w, float h) { return Polygon{{{0, 0}, {w, 0}, {w, h}, {0, h}}, {}}; }
-
-// On the rectangle's two triangles, by place in metres.
-CausticLanding at_place(const Charted& c, const vec2& place, float power, float radius) {
-    CausticLanding l;
-    for (std::uint32_t t = 0; t < c.triangles.size(); ++t) {
-        const vec2 a(c.mesh->positions[c.triangles[t].x]), b(c.mesh->positions[c.triangles[t].y]),
-            d(c.mesh->positions[c.triangles[t].z]);
-        const vec2 e1 = b - a, e2 = d - a, p = place - a;
-        const float det = e1.x * e2.y - e1.y * e2.x;
-        const vec2 w((p.x * e2.y - p.y * e2.x) / det, (e1.x * p.y - e1.y * p.x) / det);
-        if (w.x >= -1e-5F && w.y >= -1e-5F && w.x + w.y <= 1.00001F) {
-            l.triangle = t;
-            l.barycentric = w;
-            break;
-        }
-    }
-    c.place(l);
-    const float tile = c.charts.charts.front().scale.x;
-    l.axis_a = vec2(radius / tile, 0.0F);
-    l.axis_b = vec2(0.0F, radius / tile);
-    l.power = Rgb(power);
-    return l;
-}
-
-double power_of(const CausticSide& side, const std::vector<CausticLanding>& landings) {
-    double sum = 0.0;
-    for (const CausticRecord& r : side.records) {
-        sum += r.power_texture;
-    }
-    for (const std::uint32_t i : side.on_mesh) {
-        sum += luminance(landings[i].power);
-    }
-    return sum;
-}
+using test::at_place;
+using test::Charted;
+using test::power_of;
+using test::rectangle;
+using test::spot;
 
 TEST(CausticResolution, Equation7) { // PAPER-TEXRES
     struct Case {
@@ -112,61 +40,6 @@ TEST(CausticResolution, TexelsAreNearlySquare) {
         EXPECT_LE(ratio, 2.01);
         EXPECT_EQ(c.width * c.height, 4096U);
     }
-}
-
-TEST(CausticChoice, Equation2) { // PAPER-UNIFORMITY
-    EXPECT_FLOAT_EQ(caustic_contrast(0, 1), 1.0F);
-    EXPECT_NEAR(caustic_contrast(9, 10), 0.1F, 1e-6F);
-    EXPECT_FLOAT_EQ(caustic_contrast(5, 5), 0.0F);
-    EXPECT_FLOAT_EQ(caustic_contrast(0, 0), 0.0F);
-}
-
-TEST(CausticChoice, UniformLightNeverGetsATexture) {
-    const std::vector<Geometry> shapes = {
-        rectangle(3, 3), rectangle(6, 0.5F),          Polygon{{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}, {}},
-        Sphere{1.0F},    Cylinder{0.5F, 2.0F, false}, Disc{1.0F}};
-    for (std::size_t s = 0; s < shapes.size(); ++s) {
-        const Charted c(shapes[s]);
-        for (const std::size_t n : {10U, 30U, 100U, 1000U, 10'000U, 100'000U, 1'000'000U}) {
-            if (n == 1'000'000U && s > 1) {
-                continue;
-            }
-            for (std::uint32_t seed = 1; seed <= (n <= 10'000U ? 20U : 2U); ++seed) {
-                for (const bool random : {true, false}) {
-                    std::mt19937 engine(seed);
-                    std::uniform_real_distribution<float> uniform(0.0F, 1.0F);
-                    std::vector<CausticLanding> landings;
-                    for (std::size_t i = 0; i < n; ++i) {
-                        const auto k = std::uint32_t(i);
-                        const float pick = random ? uniform(engine) : sobol_owen(k, 2, seed);
-                        const vec2 u = random ? vec2(uniform(engine), uniform(engine)) : sobol_owen2(k, 0, seed);
-                        landings.push_back(c.landing(pick, u));
-                        landings.back().power = Rgb(1.0F / float(n));
-                    }
-                    for (const bool paper : {false, true}) {
-                        CausticSettings settings;
-                        settings.paper = paper;
-                        const CausticSide side = c.build(landings, settings);
-                        EXPECT_TRUE(side.textures.empty()) << "shape " << s << ", " << n << " particles, seed " << seed
-                                                           << (random ? ", random" : ", Sobol") << (paper ? ", paper" : "");
-                        EXPECT_EQ(side.on_mesh.size(), n);
-                    }
-                }
-            }
-        }
-    }
-}
-
-// A disc of light on a large wall.
-std::vector<CausticLanding> spot(const Charted& c, std::size_t n, const vec2& centre, float radius, std::uint32_t seed = 1) {
-    std::vector<CausticLanding> out;
-    for (std::size_t i = 0; i < n; ++i) {
-        const vec2 u = sobol_owen2(std::uint32_t(i), 0, seed);
-        const float r = radius * std::sqrt(u.x);
-        const vec2 p = centre + r * vec2(std::cos(2.0F * kPi * u.y), std::sin(2.0F * kPi * u.y));
-        out.push_back(at_place(c, p, 1.0F / float(n), 1.5F * radius * std::sqrt(kPi / float(n))));
-    }
-    return out;
 }
 
 TEST(CausticTextures, SpotGetsATextureThatFitsIt) {
