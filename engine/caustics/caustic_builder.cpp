@@ -20,6 +20,7 @@ constexpr std::size_t kMostBoxes = 16;   // of a chart
 constexpr double kBoxWaste = 1.2;        // two boxes become one when it is hardly larger than both
 constexpr int kMostTexels = 8192;        // a side of a chart's grid
 constexpr double kThinTexel = 0.25;      // paper: texels with less of their surface have no say in the contrast
+constexpr double kFullest = 0.01;        // of what a texel may hold: the mean over a chart
 constexpr float kLongestAxis = 0.2F;     // of a kernel, as a share of its texture
 constexpr double kManyPerTexel = 8.0;    // landings a texel from which the least kernel may shrink
 constexpr float kLeastOfMany = 0.3F;     // texels: what it shrinks to
@@ -65,7 +66,11 @@ public:
         record_.dispersion = float(choice.dispersion);
         record_.contrast = choice.contrast;
         record_.decision = choice.decision;
-        if (settings_.paper) {
+        power_ = all_power();
+        if (power_ > kFullest * CausticAccumulator::kMost * domain_.area) {
+            record_.decision = CausticRecord::Decision::Coarse;
+            record_.why = "more light than a texture can hold";
+        } else if (settings_.paper) {
             paper(texel_share);
         } else if (record_.decision == CausticRecord::Decision::Texture) {
             by_footprints(texel_share);
@@ -133,7 +138,7 @@ private:
         if (!known) {
             edge = std::min(edge, float(std::sqrt(domain_.area / double(mine_.size()))));
         }
-        edge = std::max(edge, float(std::sqrt(all_power() / CausticAccumulator::kMost))); // all in one texel
+        edge = std::max(edge, float(std::sqrt(power_ / CausticAccumulator::kMost))); // all in one texel
         for (int attempt = 0; attempt < 8; ++attempt) {
             const auto side = [&](float extent) { return std::clamp(int(std::ceil(extent / edge)), 1, kMostTexels); };
             const int width = side(domain_.extent.x), height = side(domain_.extent.y);
@@ -362,7 +367,9 @@ private:
         record_.why =
             fmt::format("equation 7: 2^{} a side for {} particles at epsilon {}", level, mine_.size(), settings_.epsilon);
         const auto within = [&](std::size_t textures) { // the memory for textures
-            while (level > 0 && double(textures) * std::ldexp(1.0, 2 * level) > budget) {
+            const double most =
+                std::min(budget / double(textures), kFullest * CausticAccumulator::kMost * domain_.area / power_);
+            while (level > 0 && std::ldexp(1.0, 2 * level) > most) {
                 --level;
                 record_.why = fmt::format("2^{} a side: what the memory for textures allows", level);
             }
@@ -463,6 +470,7 @@ private:
     CausticSide& out_;
     CausticRecord record_;
     std::vector<double> weight_; ///< luminance of each of own_ over that of the strongest, see exact_weight()
+    double power_ = 0.0;         ///< see all_power()
     OrderFreeSum in_textures_{0.0};
     std::vector<std::uint32_t> left_; ///< for the mesh; into own_
 };
