@@ -14,6 +14,7 @@ void add_measure(CLI::App& app, int& status);
 void add_render(CLI::App& app, int& status);
 void add_reference(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
+void add_inspect(CLI::App& app, int& status);
 void add_convert(CLI::App& app, int& status);
 
 } // namespace atrium::cli

@@ -26,7 +26,7 @@ struct Arguments {
     SolveArguments solve;
 };
 
-/// Which light the picture shows. There is no caustic layer in this version.
+/// Which light the picture shows.
 struct LayerChoice {
     LightShares seen; ///< on what is seen directly
     bool specular = true;
@@ -36,7 +36,7 @@ Result<LayerChoice> parse_layers(const std::string& text) {
     if (text.empty()) {
         return LayerChoice{};
     }
-    LayerChoice choice{{false, false}, false};
+    LayerChoice choice{{false, false, false}, false};
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
         const std::string name = text.substr(begin, end - begin);
@@ -47,15 +47,12 @@ Result<LayerChoice> parse_layers(const std::string& text) {
         } else if (name == "direct") {
             choice.seen.direct = true;
         } else if (name == "caustic") {
-            complain("note: --layers: there is no caustic layer in this version; 'caustic' adds nothing");
+            choice.seen.caustic = true;
         } else {
             return fail("", "--layers", fmt::format("'{}' is not a layer", name),
                         "The layers are direct, diffuse, caustic and specular, separated by commas.");
         }
         begin = end + 1;
-    }
-    if (!choice.seen.direct && !choice.seen.diffuse && !choice.specular) {
-        return fail("", "--layers", "none of these layers exists in this version", "Ask for direct, diffuse or specular.");
     }
     return choice;
 }
@@ -125,7 +122,7 @@ void add_render(CLI::App& app, int& status) {
     command->add_option("--size", a->size, "Pixels, as 1280x720");
     command->add_option("--exposure", a->exposure, "Stops above automatic exposure, .png only (default: the camera's own)")
         ->check(CLI::Range(-30.0, 30.0));
-    command->add_option("--layers", a->layers, "Of direct,diffuse,caustic,specular (default: all there are)");
+    command->add_option("--layers", a->layers, "Of direct,diffuse,caustic,specular (default: all)");
     add_solve_options(*command, a->solve);
     command->callback([a, &status] { status = run(*a); });
 }

@@ -23,6 +23,7 @@ SolveOptions options_for(const Scene& scene, const SolveArguments& arguments) {
     SolveOptions options;
     options.quality = arguments.quality ? kQualities.at(*arguments.quality) : scene.settings.quality;
     options.seed = arguments.seed.value_or(scene.settings.seed);
+    options.paper_mode = arguments.mode == "paper";
     options.target_error = arguments.error.value_or(0.0);
     return options;
 }
@@ -37,6 +38,9 @@ bool good_enough(const Solution& stored, const SolveArguments& arguments) {
         return false;
     }
     if (arguments.seed && *arguments.seed != stored.statistics.seed) {
+        return false;
+    }
+    if (arguments.mode && *arguments.mode != stored.statistics.mode) {
         return false;
     }
     return !arguments.error || stored.statistics.error_estimate <= *arguments.error;
@@ -59,7 +63,7 @@ void add_solve_options(CLI::App& command, SolveArguments& a) {
         ->check(CLI::Range(0U, 1024U))
         ->group(group);
     command.add_option("--seed", a.seed, "Seed of the random numbers")->group(group);
-    command.add_option("--mode", a.mode, "default, or paper: the algorithms of 2001 (not in this version)")
+    command.add_option("--mode", a.mode, "default, or paper: caustic textures by the algorithms of 2001")
         ->check(CLI::IsMember({"default", "paper"}))
         ->group(group);
     command.add_option("--stats", a.stats, "Write statistics as JSON to this file, - for standard output")->group(group);
@@ -68,10 +72,6 @@ void add_solve_options(CLI::App& command, SolveArguments& a) {
 }
 
 tl::expected<Solved, int> open_scene(const std::string& file, const SolveArguments& arguments) {
-    if (arguments.mode == "paper") {
-        return tl::unexpected(refuse({"", "--mode paper", "the algorithms of 2001 are not in this version",
-                                      "Leave --mode out to solve with the default ones."}));
-    }
     if (auto fine = check_output(arguments.stats); !fine) {
         return tl::unexpected(refuse(fine.error()));
     }

@@ -21,7 +21,7 @@ struct SolveArguments {
     std::optional<double> time;
     std::optional<unsigned> threads;
     std::optional<std::uint32_t> seed;
-    std::string mode = "default";
+    std::optional<std::string> mode;
     std::string stats;
     bool progress = false;
     bool daylight = false; ///< add a sun and a sky where the file has no light

@@ -3,6 +3,7 @@
 #include "engine/base/parallel.h"
 #include "engine/geometry/tessellate.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <map>
@@ -69,6 +70,59 @@ Json problems_json(const std::vector<Problem>& problems) {
     return out;
 }
 
+Json memory_json(const Statistics& s) {
+    return {{"elements", s.memory.elements},
+            {"links", s.memory.links},
+            {"particles", s.memory.particles},
+            {"octree", s.memory.octree},
+            {"caustic_textures", s.memory.caustic_textures},
+            {"layers", s.memory.layers},
+            {"ray_scene", s.memory.ray_scene},
+            {"peak_rss", peak_resident_bytes()}};
+}
+
+std::string surface_name(const Scene& scene, NodeId id) {
+    const Node* node = scene.nodes.find(id);
+    std::size_t place = 0, same = 0, at = 0;
+    for (const NodeId other : scene.in_tree_order()) {
+        same += node != nullptr && scene.nodes.find(other)->name == node->name ? 1U : 0U;
+        place = other == id ? at : place;
+        ++at;
+    }
+    return node != nullptr && !node->name.empty() && same == 1 ? node->name : fmt::format("#{}", place);
+}
+
+Json caustic_records_json(const Scene& scene, const Solution& solution) {
+    Json out = Json::array();
+    for (const CausticRecord& r : solution.caustic_records) {
+        Json boxes = Json::array();
+        Json metres = Json::array();
+        for (const vec4& b : r.boxes) {
+            boxes.push_back({b.x, b.y, b.z, b.w});
+            metres.push_back({b.x * r.extent.x, b.y * r.extent.y, b.z * r.extent.x, b.w * r.extent.y});
+        }
+        out.push_back({{"surface", surface_name(scene, r.node)},
+                       {"part", r.part},
+                       {"chart", r.chart == 0xFFFFFFFFU ? Json(nullptr) : Json(r.chart)},
+                       {"side", r.back ? "back" : "front"},
+                       {"decision", caustic_decision_name(r.decision)},
+                       {"why", r.why},
+                       {"particles", r.particles},
+                       {"contrast", r.contrast},
+                       {"dispersion", r.dispersion},
+                       {"threshold", r.threshold},
+                       {"width", r.width},
+                       {"height", r.height},
+                       {"extent", {r.extent.x, r.extent.y}},
+                       {"boxes", boxes},
+                       {"boxes_metres", metres},
+                       {"lumen_texture", r.power_texture},
+                       {"lumen_mesh", r.power_mesh},
+                       {"memory", r.bytes}});
+    }
+    return out;
+}
+
 std::string statistics_json(const Solved& solved) {
     Statistics s;
     if (solved.solution) {
@@ -109,15 +163,8 @@ std::string statistics_json(const Solved& solved) {
     out["rays"] = s.rays;
     out["particles_emitted"] = s.particles_emitted;
     out["particles_stored"] = s.particles_stored;
-    out["caustic_textures"] = Json::array();
-    out["memory"] = {{"elements", s.memory.elements},
-                     {"links", s.memory.links},
-                     {"particles", s.memory.particles},
-                     {"octree", s.memory.octree},
-                     {"caustic_textures", s.memory.caustic_textures},
-                     {"layers", s.memory.layers},
-                     {"ray_scene", s.memory.ray_scene},
-                     {"peak_rss", peak_resident_bytes()}};
+    out["caustic_textures"] = solved.solution ? caustic_records_json(solved.scene, *solved.solution) : Json(Json::array());
+    out["memory"] = memory_json(s);
     out["energy"] = {{"emitted", s.energy.emitted},
                      {"absorbed", s.energy.absorbed},
                      {"escaped", s.energy.escaped},

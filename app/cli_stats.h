@@ -27,6 +27,13 @@ nlohmann::ordered_json scene_json(const std::string& file, const Scene& scene);
 nlohmann::ordered_json features_json(const std::vector<Feature>& features);
 nlohmann::ordered_json problems_json(const std::vector<Problem>& problems);
 
+/// Sizes of what a solve built, bytes.
+nlohmann::ordered_json memory_json(const Statistics& statistics);
+/// A node by name, or #N for the N-th of the file where it has none or shares it with others.
+std::string surface_name(const Scene& scene, NodeId node);
+/// What was decided about every chart that caustic light falls on.
+nlohmann::ordered_json caustic_records_json(const Scene& scene, const Solution& solution);
+
 /// The whole object of `--stats`, indented, with a final newline.
 std::string statistics_json(const Solved& solved);
 

@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
         add_render(app, status);
         add_reference(app, status);
         add_compare(app, status);
+        add_inspect(app, status);
         add_convert(app, status);
         app.parse(argc, argv);
     } catch (const CLI::Success& success) { // --help, --version

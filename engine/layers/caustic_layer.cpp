@@ -12,7 +12,7 @@ namespace atrium {
 namespace {
 
 // Landings that one vertex's light is the mean of, about: fewer are noisy, more are blurred.
-constexpr float kSmoothed = 200.0F;
+constexpr float kSmoothed = 1500.0F;
 
 // A vector in the plane of a charted triangle, in chart space.
 vec2 to_chart(const std::array<vec3, 3>& p, const std::array<vec2, 3>& uv, const vec3& v) {

@@ -165,12 +165,18 @@ bool read_map(ByteReader& in, std::shared_ptr<const LightMap>& out) {
     return good;
 }
 
+// GLM's vectors are not trivially copyable.
+void write_pair(ByteWriter& out, const vec2& v) {
+    out.value(v.x);
+    out.value(v.y);
+}
+bool read_pair(ByteReader& in, vec2& v) { return in.value(v.x) && in.value(v.y); }
+
 void write_textures(ByteWriter& out, const std::vector<std::shared_ptr<const CausticTexture>>& textures) {
     out.value(std::uint64_t(textures.size()));
     for (const auto& texture : textures) {
-        for (const float edge : {texture->low.x, texture->low.y, texture->high.x, texture->high.y}) {
-            out.value(edge);
-        }
+        write_pair(out, texture->low);
+        write_pair(out, texture->high);
         out.value(texture->width);
         out.value(texture->height);
         out.array(texture->image);
@@ -192,9 +198,8 @@ bool read_textures(ByteReader& in, std::vector<std::shared_ptr<const CausticText
     }
     for (std::uint64_t i = 0; i < count; ++i) {
         auto texture = std::make_shared<CausticTexture>();
-        if (!in.value(texture->low.x) || !in.value(texture->low.y) || !in.value(texture->high.x) ||
-            !in.value(texture->high.y) || !in.value(texture->width) || !in.value(texture->height) ||
-            !in.array(texture->image) || !plausible(*texture)) {
+        if (!read_pair(in, texture->low) || !read_pair(in, texture->high) || !in.value(texture->width) ||
+            !in.value(texture->height) || !in.array(texture->image) || !plausible(*texture)) {
             return false;
         }
         out.push_back(std::move(texture));
@@ -211,8 +216,7 @@ void write_record(ByteWriter& out, const CausticRecord& r) {
     out.value(r.contrast);
     out.value(r.dispersion);
     out.value(r.threshold);
-    out.value(r.extent.x);
-    out.value(r.extent.y);
+    write_pair(out, r.extent);
     out.value(r.width);
     out.value(r.height);
     out.array(std::vector<char>(r.why.begin(), r.why.end()));
@@ -225,9 +229,9 @@ bool read_record(ByteReader& in, CausticRecord& r) {
     std::uint8_t back = 0, decision = 0;
     std::vector<char> why;
     if (!in.value(r.part) || !in.value(r.chart) || !in.value(back) || !in.value(decision) || !in.value(r.particles) ||
-        !in.value(r.contrast) || !in.value(r.dispersion) || !in.value(r.threshold) || !in.value(r.extent.x) ||
-        !in.value(r.extent.y) || !in.value(r.width) || !in.value(r.height) || !in.array(why) || !in.array(r.boxes) ||
-        !in.value(r.power_texture) || !in.value(r.power_mesh) || !in.value(r.bytes) || back > 1 ||
+        !in.value(r.contrast) || !in.value(r.dispersion) || !in.value(r.threshold) || !read_pair(in, r.extent) ||
+        !in.value(r.width) || !in.value(r.height) || !in.array(why) || !in.array(r.boxes) || !in.value(r.power_texture) ||
+        !in.value(r.power_mesh) || !in.value(r.bytes) || back > 1 ||
         decision > std::uint8_t(CausticRecord::Decision::Uncharted)) {
         return false;
     }

@@ -1,7 +1,7 @@
 #version 330 core
 // Compiled in variants, since a software rasteriser executes every branch: TEXTURED (textures, alpha mask), SPECULAR (metal
 // and glass), HEADLIGHT (no light known yet), CUT (walls that hide the room from outside are left out, see cutaway.h),
-// LIGHT_MAP (direct light in a map, engine/layers/light_map.h).
+// LIGHT_MAP (direct light in a map, engine/layers/light_map.h), CAUSTICS (engine/caustics/caustic_texture.h).
 // radiance = emitted + rho * irradiance / pi, then exposure, filmic curve and sRGB as in engine/view/tone.h.
 in vec3 v_position;
 in vec3 v_normal;
@@ -10,12 +10,22 @@ in vec2 v_emissive_uv;
 in vec3 v_color;
 in vec3 v_front;
 in vec3 v_back;
-#ifdef LIGHT_MAP
+#if defined(LIGHT_MAP) || defined(CAUSTICS)
 centroid in vec2 v_light_uv; // tiles
 flat in float v_charted;
+#endif
+#ifdef LIGHT_MAP
 uniform sampler2D u_map;        // irradiance / u_map_scale
 uniform usampler2D u_map_tiles; // first sample x, y; level; used
 uniform float u_map_scale;      // lux
+#endif
+#ifdef CAUSTICS
+uniform sampler2D u_caustic_image; // irradiance / u_caustic_scale, all textures of the side
+uniform sampler2D u_caustic_boxes; // by row: rectangle low, high in tiles; place in the image x, y, width, height
+uniform int u_caustic_count;
+uniform vec4 u_caustic_bounds; // around all rectangles: low, high
+uniform float u_caustic_scale; // lux
+uniform float u_caustic_outline; // 1 = outline the rectangles
 #endif
 
 uniform vec4 u_base;    // linear colour and alpha
@@ -107,6 +117,29 @@ vec3 mapped(vec2 uv) {
 }
 #endif
 
+#ifdef CAUSTICS
+// Sum of CausticTexture::irradiance(); `edge` is how much of a white outline (x) and of the dark line within it (y) is here.
+vec3 caustics(vec2 uv, vec2 pixel, out vec2 edge) {
+    bool near = uv == clamp(uv, u_caustic_bounds.xy, u_caustic_bounds.zw);
+    vec2 texel = 1.0 / vec2(textureSize(u_caustic_image, 0));
+    vec3 sum = vec3(0.0);
+    float depth = 1e6; // within the nearest outline, pixels
+    for (int i = near ? 0 : u_caustic_count; i < u_caustic_count; ++i) {
+        vec4 box = texelFetch(u_caustic_boxes, ivec2(0, i), 0);
+        if (uv == clamp(uv, box.xy, box.zw)) {
+            vec4 place = texelFetch(u_caustic_boxes, ivec2(1, i), 0);
+            // A little inside the outermost texels' middles: a rounding beyond would mix in another texture's light.
+            vec2 at = clamp((uv - box.xy) / (box.zw - box.xy) * place.zw, vec2(0.502), place.zw - 0.502);
+            sum += textureLod(u_caustic_image, (place.xy + at) * texel, 0.0).rgb;
+            vec2 inside = min(uv - box.xy, box.zw - uv) / pixel;
+            depth = min(depth, min(inside.x, inside.y));
+        }
+    }
+    edge = clamp(vec2(2.0, 3.5) - depth, 0.0, 1.0) * u_caustic_outline;
+    return sum * u_caustic_scale;
+}
+#endif
+
 void main() {
 #ifdef CUT
     if (any(greaterThan(u_cut_side * (v_position - u_cut_plane) * step(u_cut_facing, abs(normalize(v_normal))), vec3(0.0)))) {
@@ -131,6 +164,11 @@ void main() {
     vec3 irradiance = gl_FrontFacing || !u_has_back ? v_front : v_back;
 #ifdef LIGHT_MAP
     irradiance += v_charted * mapped(v_light_uv);
+#endif
+#ifdef CAUSTICS
+    vec2 edge;
+    irradiance += v_charted * caustics(v_light_uv, max(fwidth(v_light_uv), vec2(1e-9)), edge);
+    edge *= v_charted;
 #endif
     vec3 radiance = emitted + rho * u_diffuse_share * max(irradiance, vec3(0.0)) * kInvPi;
 
@@ -167,4 +205,8 @@ void main() {
     } else {
         o_color = shown(radiance * u_filter, alpha);
     }
+#ifdef CAUSTICS
+    // White, and dark within: seen on any light.
+    o_color = mix(mix(o_color, vec4(0.0, 0.0, 0.0, 1.0), 0.6 * edge.y), vec4(1.0), edge.x);
+#endif
 }

@@ -60,6 +60,25 @@ TEST(SpecularRooms, MirrorStandsForTheOtherHalf) {
         EXPECT_NEAR(luminance(shown.irradiance) / p.total, 1.0, 0.01) << p.name;
     }
     EXPECT_NEAR(s.solution->statistics.energy.defect, 0.0, 0.02);
+    // Even light stays on the mesh, and vertices hold exactly what landed.
+    double landed = 0.0;
+    for (const CausticRecord& r : s.solution->caustic_records) {
+        EXPECT_NE(r.decision, CausticRecord::Decision::Texture) << r.why;
+        landed += r.power_mesh;
+    }
+    double shown = 0.0;
+    for (const auto& layer : s.solution->surfaces) {
+        const std::vector<std::uint32_t>& v = layer->mesh->indices;
+        for (std::size_t t = 0; t + 2 < v.size() && !layer->caustic_front.empty(); t += 3) {
+            const auto& p = layer->mesh->positions;
+            const double third = double(glm::length(glm::cross(p[v[t + 1]] - p[v[t]], p[v[t + 2]] - p[v[t]]))) / 6.0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                shown += third * luminance(layer->caustic_front[v[t + k]]);
+            }
+        }
+    }
+    EXPECT_GT(landed, 0.0);
+    EXPECT_NEAR(shown, landed, 1e-4 * landed);
 }
 
 // ENC-FURNACE with things in it that absorb nothing: radiance, and so irradiance, is the same everywhere.

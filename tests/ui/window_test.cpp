@@ -565,21 +565,23 @@ TEST_F(WindowTest, IconsAreSeenOnLightAndOnDark) {
     QApplication::setPalette(before);
 }
 
-TEST_F(WindowTest, DirectAndDiffuseLightCanBeLeftOutAndThatIsRemembered) {
+TEST_F(WindowTest, LayersOfLightCanBeLeftOutAndThatIsRemembered) {
     auto* view = window->findChild<ViewportWidget*>();
     ASSERT_NE(view, nullptr);
     EXPECT_TRUE(view->light_shares() == LightShares{});
     trigger(ActionId::ShowDirect);
     EXPECT_TRUE(view->light_shares() == (LightShares{true, false}));
-    trigger(ActionId::ShowDiffuse); // nothing would be left: the other comes back
-    EXPECT_TRUE(view->light_shares() == (LightShares{false, true}));
+    trigger(ActionId::ShowDiffuse);
+    EXPECT_TRUE(view->light_shares() == (LightShares{false, false, true}));
+    trigger(ActionId::ShowCaustic); // nothing would be left: the others come back
+    EXPECT_TRUE(view->light_shares() == (LightShares{true, true, false}));
     EXPECT_TRUE(window->action(ActionId::ShowDirect)->isChecked());
     TearDown();
     SetUp();
     view = window->findChild<ViewportWidget*>();
-    EXPECT_TRUE(view->light_shares() == (LightShares{false, true}));
-    EXPECT_FALSE(window->action(ActionId::ShowDiffuse)->isChecked());
-    trigger(ActionId::ShowDiffuse);
+    EXPECT_TRUE(view->light_shares() == (LightShares{true, true, false}));
+    EXPECT_FALSE(window->action(ActionId::ShowCaustic)->isChecked());
+    trigger(ActionId::ShowCaustic);
     EXPECT_TRUE(view->light_shares() == LightShares{});
 }
 

@@ -3,6 +3,7 @@
 
 #include "engine/view/tone.h"
 #include "tests/support/light_maps.h"
+#include "ui/viewport/caustic_cache.h"
 
 #include <QDir>
 #include <QSignalSpy>
@@ -72,6 +73,36 @@ std::shared_ptr<Solution> lit_plane(const Scene& scene, Maps maps) {
                 4, 4, [](int u, int v) { return (u + v) % 5; }, rings));
         }
     }
+    solution->surfaces[0] = layer;
+    return solution;
+}
+
+std::shared_ptr<const CausticTexture> caustic(const vec2& low, const vec2& high, std::uint32_t width, std::uint32_t height,
+                                              const std::function<Rgb(const vec2& uv)>& light) {
+    auto texture = std::make_shared<CausticTexture>();
+    texture->low = low;
+    texture->high = high;
+    texture->width = width;
+    texture->height = height;
+    for (std::uint32_t j = 0; j < height; ++j) {
+        for (std::uint32_t i = 0; i < width; ++i) {
+            texture->image.push_back(light(vec2(float(i) + 0.5F, float(j) + 0.5F) / vec2(float(width), float(height))));
+        }
+    }
+    return texture;
+}
+Rgb arc(const vec2& uv) { return Rgb(2500.0F, 900.0F, 300.0F) * std::exp(-80.0F * std::pow(length(uv) - 0.6F, 2.0F)); }
+Rgb even_green(const vec2& uv) { return Rgb(100.0F, 900.0F, 200.0F) * (0.6F + 0.4F * uv.x); }
+
+/// Two overlapping textures, one of them up to the chart's edge, and a small one in a corner; on the back another.
+std::shared_ptr<Solution> with_caustics(std::shared_ptr<Solution> solution) {
+    auto layer = std::make_shared<SurfaceLayer>(*solution->surfaces[0]);
+    layer->caustic_textures_front = {caustic({1.0F, 1.0F}, {3.0F, 3.5F}, 40, 50, arc),
+                                     caustic({2.2F, 0.6F}, {4.0F, 2.1F}, 9, 6, even_green),
+                                     caustic({0.2F, 3.5F}, {0.6F, 3.9F}, 3, 200, even_green)};
+    layer->caustic_textures_back = {caustic({0.5F, 0.5F}, {1.5F, 3.0F}, 20, 30, even_green)};
+    layer->caustic_front.assign(layer->mesh->positions.size(), Rgb(0.0F, 40.0F, 160.0F));
+    layer->caustic_front[0] = Rgb(500.0F, 0.0F, 0.0F);
     solution->surfaces[0] = layer;
     return solution;
 }
@@ -207,6 +238,110 @@ TEST_F(LightMaps, SharesAreShownOneAtATime) {
         EXPECT_TRUE(view_->light_shares() == shares);
         compare(*solution->surfaces[0], eye, shares, shares.direct ? (shares.diffuse ? "all" : "direct") : "diffuse");
     }
+}
+
+TEST_F(LightMaps, CausticTexturesAreAddedUpOnBothSides) {
+    const Scene scene = plane();
+    for (const Maps maps : {Maps::Both, Maps::Front}) {
+        const auto solution = with_caustics(lit_plane(scene, maps));
+        for (const double side : {1.0, -1.0}) {
+            const dvec3 eye(0.1, 0.2, 2.4 * side);
+            open(scene, solution, eye, {0, 0, 0});
+            EXPECT_GT(compare(*solution->surfaces[0], eye, {}, side > 0 ? "caustics" : "caustics behind"), 50'000);
+        }
+    }
+}
+
+TEST_F(LightMaps, CausticsAreALayerOfTheirOwn) {
+    const Scene scene = plane();
+    const auto solution = with_caustics(lit_plane(scene, Maps::Both));
+    const dvec3 eye(0.1, 0.2, 2.4);
+    open(scene, solution, eye, {0, 0, 0});
+    for (const LightShares& shares :
+         {LightShares{false, false, true}, LightShares{true, true, false}, LightShares{true, false, true}, LightShares{}}) {
+        view_->set_light_shares(shares);
+        compare(*solution->surfaces[0], eye, shares, shares.caustic ? "with caustics" : "without caustics");
+    }
+    // By hand: outside, in one, where two add up.
+    view_->set_light_shares({false, false, true});
+    const SurfaceLayer& layer = *solution->surfaces[0];
+    const auto light = [&](const vec2& uv) {
+        return *expected(layer, uv / kTilesPerMetre - vec2(1.0F), false, {false, false, true});
+    };
+    const vec2 outside(0.9F, 0.5F), one(3.5F, 1.5F), both(2.6F, 1.5F);
+    EXPECT_LT(light(outside).g, 40.0F) << "what the vertices hold";
+    const auto& textures = layer.caustic_textures_front;
+    EXPECT_GT(textures[0]->irradiance(both).r, 10.0F);
+    EXPECT_GT(textures[1]->irradiance(both).g, 100.0F);
+    EXPECT_GT(light(both).g, textures[0]->irradiance(both).g + textures[1]->irradiance(both).g);
+    const auto green = [&](const vec2& uv) {
+        const vec2 p = uv / kTilesPerMetre - vec2(1.0F);
+        return qGreen(grab().pixel(QPoint(at({p.x, p.y, 0}))));
+    };
+    EXPECT_GT(green(one), green(outside) + 50);
+}
+
+TEST_F(LightMaps, CausticBoxesAreOutlinedWhenAsked) {
+    const Scene scene = plane();
+    const auto solution = with_caustics(lit_plane(scene, Maps::Both));
+    open(scene, solution, {0.1, 0.2, 2.4}, {0, 0, 0});
+    const auto picture = [&] {
+        QTest::qWait(800);
+        return grab();
+    };
+    const auto place = [&](const vec2& uv) {
+        const vec2 p = uv / kTilesPerMetre - vec2(1.0F);
+        return at({p.x, p.y, 0});
+    };
+    const QImage before = picture();
+    view_->set_caustic_boxes(true);
+    const QImage outlined = picture();
+    // Across the middle of the first one's left edge there is white; in its middle all is as before.
+    int whitest = 0;
+    const QPoint edge(place({1.0F, 2.3F}));
+    for (int d = -4; d <= 4; ++d) {
+        const QRgb pixel = outlined.pixel(edge + QPoint(d, 0));
+        whitest = std::max(whitest, std::min({qRed(pixel), qGreen(pixel), qBlue(pixel)}));
+    }
+    EXPECT_GT(whitest, 240);
+    const QPoint middle(place({1.8F, 3.0F}));
+    EXPECT_EQ(outlined.pixel(middle), before.pixel(middle));
+    // They stay when the layer is switched off, and go when not asked for any more.
+    view_->set_light_shares({true, true, false});
+    EXPECT_NE(picture(), before);
+    view_->set_light_shares({});
+    view_->set_caustic_boxes(false);
+    EXPECT_EQ(picture(), before);
+}
+
+TEST(CausticPlaces, NeverOverlapAndFillMostOfTheImage) {
+    CausticList list;
+    std::uint32_t seed = 7;
+    double area = 0.0;
+    for (int i = 0; i < 200; ++i) {
+        auto texture = std::make_shared<CausticTexture>();
+        seed = seed * 1664525U + 1013904223U;
+        texture->width = 1 + (seed >> 24U);
+        texture->height = 1 + ((seed >> 12U) & 127U);
+        area += double(texture->width) * texture->height;
+        list.push_back(texture);
+    }
+    const CausticPlaces places = place_caustics(list, 16384);
+    ASSERT_EQ(places.places.size(), list.size());
+    EXPECT_LT(double(places.width) * places.height, 1.4 * area);
+    std::vector<std::uint8_t> used(std::size_t(places.width) * places.height);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        for (std::uint32_t y = 0; y < list[i]->height; ++y) {
+            for (std::uint32_t x = 0; x < list[i]->width; ++x) {
+                ASSERT_LT(places.places[i].x + x, places.width);
+                ASSERT_LT(places.places[i].y + y, places.height);
+                std::uint8_t& texel = used[(places.places[i].y + y) * std::size_t(places.width) + places.places[i].x + x];
+                ASSERT_EQ(texel, 0);
+                texel = 1;
+            }
+        }
+    }
+    EXPECT_TRUE(place_caustics(list, 128).places.empty()) << "too large";
 }
 
 TEST_F(LightMaps, NewLightIsShownWhenItsMapsAreThereAndNothingWaitsForThem) {

@@ -20,6 +20,18 @@ std::unique_ptr<QOpenGLShaderProgram> load_program(const char* vertex, const cha
     return good ? std::move(program) : nullptr;
 }
 
+unsigned new_texture(Gl& gl, GLint filter) {
+    unsigned name = 0;
+    gl.glGenTextures(1, &name);
+    gl.glBindTexture(GL_TEXTURE_2D, name);
+    gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+    gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return name;
+}
+
 bool GlTarget::resize(Gl& gl, int width, int height, int samples, unsigned color_format, bool with_depth) {
     if (framebuffer_ != 0 && width == width_ && height == height_ && samples == samples_) {
         return true;

@@ -15,6 +15,10 @@ using Gl = QOpenGLFunctions_3_3_Core;
 /// shader's #version; null (with Qt's log printed) when it does not link.
 std::unique_ptr<QOpenGLShaderProgram> load_program(const char* vertex, const char* fragment, const QByteArray& defines = {});
 
+/// New two-dimensional texture without levels, clamped to its edge, bound to GL_TEXTURE_2D; `filter` both ways. Context
+/// current.
+unsigned new_texture(Gl& gl, GLint filter);
+
 /// Off-screen picture with depth and stencil. All functions need the context current.
 class GlTarget {
 public:

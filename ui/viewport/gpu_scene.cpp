@@ -94,6 +94,7 @@ bool GpuScene::initialize(Gl& gl) {
     gl.glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
     gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     light_maps_.initialize(gl);
+    caustics_.initialize(gl);
     return true;
 }
 
@@ -121,7 +122,8 @@ void GpuScene::release() {
     lightings_.clear();
     textures_.release(*gl_);
     light_maps_.release(*gl_);
-    awaited_.clear();
+    caustics_.release(*gl_);
+    forget_awaited();
     gl_->glDeleteTextures(1, &white_);
     gl_->glDeleteTextures(1, &probe_.texture);
     gl_->glDeleteTextures(1, &next_probe_.texture);
@@ -149,11 +151,19 @@ unsigned GpuScene::variant_of(const ViewItem& item) {
     }
     if (!lit) {
         out |= Headlight;
-    } else if (shares_.direct && !item.mesh->light_uv.empty()) {
-        const bool front = light_maps_.get(*gl_, item.layer->direct_map_front) != nullptr;
-        const bool back =
-            item.layer->has_back() && m.double_sided && light_maps_.get(*gl_, item.layer->direct_map_back) != nullptr;
-        out |= front || back ? Mapped : 0U;
+    } else if (!item.mesh->light_uv.empty()) {
+        const SurfaceLayer& layer = *item.layer;
+        const bool has_back = layer.has_back() && m.double_sided;
+        if (shares_.direct) {
+            const bool front = light_maps_.get(*gl_, layer.direct_map_front) != nullptr;
+            const bool back = has_back && light_maps_.get(*gl_, layer.direct_map_back) != nullptr;
+            out |= front || back ? Mapped : 0U;
+        }
+        if (shares_.caustic || caustic_boxes_) {
+            const bool front = caustics_.get(*gl_, layer.caustic_textures_front) != nullptr;
+            const bool back = has_back && caustics_.get(*gl_, layer.caustic_textures_back) != nullptr;
+            out |= front || back ? Caustic : 0U;
+        }
     }
     return out;
 }
@@ -166,6 +176,7 @@ bool GpuScene::compile(unsigned variant) {
         defines += (variant & Headlight) != 0 ? "#define HEADLIGHT\n" : "";
         defines += (variant & Cut) != 0 ? "#define CUT\n" : "";
         defines += (variant & Mapped) != 0 ? "#define LIGHT_MAP\n" : "";
+        defines += (variant & Caustic) != 0 ? "#define CAUSTICS\n" : "";
         surface_[variant].program = load_program("surface.vert", "surface.frag", defines);
     }
     return surface_[variant].program != nullptr;
@@ -182,6 +193,11 @@ void GpuScene::begin(unsigned variant, const DrawView& from) {
     if ((variant & Mapped) != 0) {
         gl.glUniform1i(p.at("u_map"), 3);
         gl.glUniform1i(p.at("u_map_tiles"), 4);
+    }
+    if ((variant & Caustic) != 0) {
+        gl.glUniform1i(p.at("u_caustic_image"), 5);
+        gl.glUniform1i(p.at("u_caustic_boxes"), 6);
+        gl.glUniform1f(p.at("u_caustic_outline"), caustic_boxes_ ? 1.0F : 0.0F);
     }
     gl.glUniform1f(p.at("u_exposure"), from.exposure);
     gl.glUniform4f(p.at("u_clip"), from.clip.x, from.clip.y, from.clip.z, from.clip.w);
@@ -238,16 +254,20 @@ void GpuScene::collect(const ViewScene& view, const Scene& scene) {
         return gone;
     });
     std::unordered_set<const LightMap*> maps;
+    std::set<CausticList> caustics(awaited_caustics_.begin(), awaited_caustics_.end());
     for (const ViewItem& item : view.items()) {
         if (item.layer) {
             maps.insert(item.layer->direct_map_front.get());
             maps.insert(item.layer->direct_map_back.get());
+            caustics.insert(item.layer->caustic_textures_front);
+            caustics.insert(item.layer->caustic_textures_back);
         }
     }
     for (const auto& map : awaited_) {
         maps.insert(map.get());
     }
     light_maps_.collect(*gl_, maps);
+    caustics_.collect(*gl_, caustics);
     textures_.collect(*gl_, scene);
 }
 
@@ -396,8 +416,8 @@ void GpuScene::draw_surface(const ViewItem& item, unsigned variant, const Scene&
     gl.glUniform1f(at("u_f0"), f * f);
     gl.glUniform1f(at("u_diffuse_share"), m.metallic + (1.0F - m.metallic) * (1.0F - m.transmission));
     bind(item, geometry, lighting);
-    if ((variant & Mapped) != 0) {
-        draw_mapped(item, p, geometry, lighting != nullptr && lighting->has_back);
+    if ((variant & (Mapped | Caustic)) != 0) {
+        draw_mapped(item, variant, geometry, lighting != nullptr && lighting->has_back);
     } else {
         gl.glDrawElements(GL_TRIANGLES, geometry.count, GL_UNSIGNED_INT, nullptr);
     }
@@ -410,6 +430,7 @@ int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& fr
     gl.glDisable(GL_BLEND);
     gl.glCullFace(GL_BACK);
     set_shares(from.shares);
+    caustic_boxes_ = from.caustic_boxes && !from.linear;
 
     const dmat4 view_projection = from.projection * from.rotation;
     struct Visible {

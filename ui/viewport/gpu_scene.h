@@ -1,6 +1,7 @@
 // The view's items on the GPU: uploads what changed, draws what is in sight.
 #pragma once
 
+#include "ui/viewport/caustic_cache.h"
 #include "ui/viewport/gl.h"
 #include "ui/viewport/light_map_cache.h"
 #include "ui/viewport/texture_cache.h"
@@ -28,6 +29,7 @@ struct DrawView {
     Cutaway cutaway;                       ///< what of the walls is left out
     vec3 filter{1.0F};                     ///< the mirror's reflectance
     LightShares shares;                    ///< of the light to show; what emits belongs to the direct share
+    bool caustic_boxes = false;            ///< outline the caustic textures
 };
 
 /// Needs the GL context current in every function but the constructor. UI thread only.
@@ -39,20 +41,26 @@ public:
 
     /// Drops buffers that `view` no longer uses. New ones are uploaded when first drawn.
     void collect(const ViewScene& view, const Scene& scene);
-    /// Starts a frame. Textures and light maps are uploaded a few a frame: while uploads_pending(), the next frame shows
-    /// more of them.
+    /// Starts a frame. Textures, light maps and caustics are uploaded a few a frame: while uploads_pending(), the next frame
+    /// shows more of them.
     void begin_frame() {
         textures_.begin_frame();
         light_maps_.begin_frame();
+        caustics_.begin_frame();
     }
-    [[nodiscard]] bool uploads_pending() const { return textures_.pending() || light_maps_.pending(); }
-    /// Uploads a solution's light maps ahead of its being shown, for a few milliseconds; call until it is true. Those that
-    /// are there are kept until the next call or forget_awaited(), whatever the view shows.
+    [[nodiscard]] bool uploads_pending() const {
+        return textures_.pending() || light_maps_.pending() || caustics_.pending();
+    }
+    /// Uploads a solution's light maps and caustics ahead of its being shown, for a few milliseconds; call until it is true.
+    /// Those that are there are kept until the next call or forget_awaited(), whatever the view shows.
     bool upload_ahead(const Solution& solution);
     /// True when upload_ahead() would have nothing to do. Needs no context.
     [[nodiscard]] bool uploaded(const Solution& solution) const;
     /// The view shows the awaited solution now, or never will. Needs no context.
-    void forget_awaited() { awaited_.clear(); }
+    void forget_awaited() {
+        awaited_.clear();
+        awaited_caustics_.clear();
+    }
     /// Opaque surfaces, then blended ones from back to front. Returns how many surfaces were drawn.
     int draw(const ViewScene& view, const Scene& scene, const DrawView& from);
     /// Flat silhouettes in one colour of the items that `wanted` accepts.
@@ -103,8 +111,10 @@ private:
     void draw_surface(const ViewItem& item, unsigned variant, const Scene& scene, const DrawView& from, const mat4& mvp);
     void set_sides(const ViewItem& item, bool reflected);
     void set_shares(const LightShares& shares);
-    /// Draws the bound arrays with the light maps of the sides that are seen.
-    void draw_mapped(const ViewItem& item, Program& program, const Geometry& geometry, bool has_back);
+    /// Draws the bound arrays with the light maps and caustics of the sides that are seen.
+    void draw_mapped(const ViewItem& item, unsigned variant, const Geometry& geometry, bool has_back);
+    void bind_map(Program& program, const std::shared_ptr<const LightMap>& map);
+    void bind_caustics(Program& program, const CausticList& list);
     void forget(const Geometry& geometry);
     /// Draws what a flat mirror shows over its surface, through the stencil buffer.
     void draw_mirror(const ViewItem& item, const ViewScene& view, const Scene& scene, const DrawView& from, const mat4& mvp,
@@ -112,7 +122,15 @@ private:
     void draw_flat(const ViewItem& item, const mat4& mvp, const vec4& color);
 
     Gl* gl_ = nullptr;
-    enum Feature : unsigned { Textured = 1, Specular = 2, Headlight = 4, Cut = 8, Mapped = 16, kVariants = 32 };
+    enum Feature : unsigned {
+        Textured = 1,
+        Specular = 2,
+        Headlight = 4,
+        Cut = 8,
+        Mapped = 16,
+        Caustic = 32,
+        kVariants = 64
+    };
     std::array<Program, kVariants> surface_;
     std::unique_ptr<QOpenGLShaderProgram> mask_;
     [[nodiscard]] unsigned variant_of(const ViewItem& item);
@@ -123,8 +141,11 @@ private:
     std::map<std::pair<NodeId, std::uint32_t>, Array> arrays_;
     TextureCache textures_;
     LightMapCache light_maps_;
+    CausticCache caustics_;
     std::vector<std::shared_ptr<const LightMap>> awaited_; ///< of the solution that is shown next
+    std::vector<CausticList> awaited_caustics_;            ///< likewise
     LightShares shares_;                                   ///< in the vertices' values
+    bool caustic_boxes_ = false;                           ///< in what is being drawn
     unsigned white_ = 0;
 
     struct Probe {

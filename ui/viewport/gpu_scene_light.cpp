@@ -1,4 +1,4 @@
-// The light of GpuScene's surfaces: on vertices, in maps, and what of it is shown.
+// The light of GpuScene's surfaces: on vertices, in maps, in caustic textures, and what of it is shown.
 #include "ui/viewport/gpu_scene.h"
 
 #include <QElapsedTimer>
@@ -8,31 +8,41 @@
 namespace atrium::ui {
 namespace {
 
-/// Light maps of a solution that is not shown yet: no further one is begun after this many milliseconds.
+/// Light of a solution that is not shown yet: no further one is begun after this many milliseconds.
 constexpr int kUploadAheadMs = 5;
 
 } // namespace
 
 bool GpuScene::upload_ahead(const Solution& solution) {
-    awaited_.clear();
+    forget_awaited();
     for (const auto& layer : solution.surfaces) {
         for (const auto& map : {layer->direct_map_front, layer->direct_map_back}) {
             if (map) {
                 awaited_.push_back(map);
             }
         }
+        for (const CausticList* list : {&layer->caustic_textures_front, &layer->caustic_textures_back}) {
+            if (!list->empty()) {
+                awaited_caustics_.push_back(*list);
+            }
+        }
     }
     QElapsedTimer clock;
     clock.start();
-    return std::all_of(awaited_.begin(), awaited_.end(), [&](const auto& map) {
-        return light_maps_.ready(*map) || (clock.elapsed() < kUploadAheadMs && light_maps_.upload_some(*gl_, map));
-    });
+    const auto there = [&](const auto& all, auto& cache, const auto& what) {
+        return std::all_of(all.begin(), all.end(), [&](const auto& one) {
+            return cache.ready(what(one)) || (clock.elapsed() < kUploadAheadMs && cache.upload_some(*gl_, one));
+        });
+    };
+    return there(awaited_, light_maps_, [](const auto& map) -> const LightMap& { return *map; }) &&
+           there(awaited_caustics_, caustics_, [](const CausticList& list) -> const CausticList& { return list; });
 }
 
 bool GpuScene::uploaded(const Solution& solution) const {
     return std::all_of(solution.surfaces.begin(), solution.surfaces.end(), [this](const auto& layer) {
         return (!layer->direct_map_front || light_maps_.ready(*layer->direct_map_front)) &&
-               (!layer->direct_map_back || light_maps_.ready(*layer->direct_map_back));
+               (!layer->direct_map_back || light_maps_.ready(*layer->direct_map_back)) &&
+               caustics_.ready(layer->caustic_textures_front) && caustics_.ready(layer->caustic_textures_back);
     });
 }
 
@@ -70,11 +80,22 @@ const GpuScene::Lighting* GpuScene::lighting_of(const ViewItem& item) {
             break;
         }
         const auto& map = back ? layer.direct_map_back : layer.direct_map_front;
-        // A map that the driver cannot hold is shown as coarsely as the vertices are.
-        const bool coarse = map && light_maps_.too_large(*map);
+        const CausticList& textures = back ? layer.caustic_textures_back : layer.caustic_textures_front;
+        // What the driver cannot hold is shown as coarsely as the vertices are.
+        const bool coarse_map = shares_.direct && map && light_maps_.too_large(*map);
+        const bool coarse_caustics = shares_.caustic && caustics_.too_large(textures);
         for (std::uint32_t i = 0; i < count; ++i) {
-            values.push_back(coarse ? irradiance_at(layer, {i, i, i}, vec3(1.0F, 0.0F, 0.0F), back, shares_)
-                                    : vertex_irradiance(layer, i, back, shares_));
+            Rgb light = vertex_irradiance(layer, i, back, shares_);
+            const bool charted = i < item.mesh->light_uv.size() && item.mesh->light_uv[i].x >= 0.0F;
+            if (charted && coarse_map) {
+                light += map->irradiance(item.mesh->light_uv[i]);
+            }
+            if (charted && coarse_caustics) {
+                for (const auto& texture : textures) {
+                    light += texture->irradiance(item.mesh->light_uv[i]);
+                }
+            }
+            values.push_back(light);
         }
     }
     gl_->glGenBuffers(1, &l.values);
@@ -83,29 +104,54 @@ const GpuScene::Lighting* GpuScene::lighting_of(const ViewItem& item) {
     return &l;
 }
 
-void GpuScene::draw_mapped(const ViewItem& item, Program& program, const Geometry& geometry, bool has_back) {
+void GpuScene::bind_map(Program& program, const std::shared_ptr<const LightMap>& map) {
+    const LightMapCache::Texture* found = light_maps_.get(*gl_, map);
+    const LightMapCache::Texture& texture = found != nullptr ? *found : light_maps_.dark();
+    gl_->glActiveTexture(GL_TEXTURE3);
+    gl_->glBindTexture(GL_TEXTURE_2D, texture.image);
+    gl_->glActiveTexture(GL_TEXTURE4);
+    gl_->glBindTexture(GL_TEXTURE_2D, texture.tiles);
+    gl_->glUniform1f(program.at("u_map_scale"), texture.scale);
+}
+
+void GpuScene::bind_caustics(Program& program, const CausticList& list) {
+    const CausticCache::Texture* found = caustics_.get(*gl_, list);
+    if (found == nullptr) {
+        gl_->glUniform1i(program.at("u_caustic_count"), 0); // nothing is looked up
+        return;
+    }
+    gl_->glActiveTexture(GL_TEXTURE5);
+    gl_->glBindTexture(GL_TEXTURE_2D, found->image);
+    gl_->glActiveTexture(GL_TEXTURE6);
+    gl_->glBindTexture(GL_TEXTURE_2D, found->boxes);
+    gl_->glUniform1i(program.at("u_caustic_count"), found->count);
+    gl_->glUniform4f(program.at("u_caustic_bounds"), found->low.x, found->low.y, found->high.x, found->high.y);
+    gl_->glUniform1f(program.at("u_caustic_scale"), shares_.caustic ? found->scale : 0.0F);
+}
+
+void GpuScene::draw_mapped(const ViewItem& item, unsigned variant, const Geometry& geometry, bool has_back) {
     Gl& gl = *gl_;
-    const auto draw_with = [&](const std::shared_ptr<const LightMap>& map) {
-        const LightMapCache::Texture* found = light_maps_.get(gl, map);
-        const LightMapCache::Texture& texture = found != nullptr ? *found : light_maps_.dark();
-        gl.glActiveTexture(GL_TEXTURE3);
-        gl.glBindTexture(GL_TEXTURE_2D, texture.image);
-        gl.glActiveTexture(GL_TEXTURE4);
-        gl.glBindTexture(GL_TEXTURE_2D, texture.tiles);
-        gl.glUniform1f(program.at("u_map_scale"), texture.scale);
+    Program& program = surface_[variant];
+    const SurfaceLayer& layer = *item.layer;
+    const auto draw_side = [&](bool back) {
+        if ((variant & Mapped) != 0) {
+            bind_map(program, back ? layer.direct_map_back : layer.direct_map_front);
+        }
+        if ((variant & Caustic) != 0) {
+            bind_caustics(program, back ? layer.caustic_textures_back : layer.caustic_textures_front);
+        }
         gl.glDrawElements(GL_TRIANGLES, geometry.count, GL_UNSIGNED_INT, nullptr);
     };
-    const SurfaceLayer& layer = *item.layer;
     if (!has_back || !item.material->double_sided) {
-        draw_with(layer.direct_map_front);
+        draw_side(false);
         return;
     }
     // A side at a time, each with its own map: choosing in the shader would make every fragment pay for both.
     gl.glEnable(GL_CULL_FACE);
     gl.glCullFace(GL_FRONT);
-    draw_with(layer.direct_map_back);
+    draw_side(true);
     gl.glCullFace(GL_BACK);
-    draw_with(layer.direct_map_front);
+    draw_side(false);
 }
 
 } // namespace atrium::ui

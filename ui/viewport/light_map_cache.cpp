@@ -16,18 +16,6 @@ constexpr std::uint32_t kSlice = 1U << 15U;
 
 double milliseconds(const QElapsedTimer& clock) { return double(clock.nsecsElapsed()) * 1e-6; }
 
-unsigned new_texture(Gl& gl, GLint filter) {
-    unsigned name = 0;
-    gl.glGenTextures(1, &name);
-    gl.glBindTexture(GL_TEXTURE_2D, name);
-    gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
-    gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-    gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    return name;
-}
-
 /// LightMap::Tile is four 16-bit numbers in a row: a texel as it is.
 unsigned tile_table(Gl& gl, std::uint32_t width, std::uint32_t height, const LightMap::Tile* tiles) {
     static_assert(sizeof(LightMap::Tile) == 4 * sizeof(std::uint16_t));

@@ -122,6 +122,7 @@ void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, i
     gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     DrawView with_background = from;
     with_background.background = ground;
+    with_background.caustic_boxes = in.caustic_boxes;
     gpu_.begin_frame();
     gpu_.draw(in.view, in.scene, with_background);
     if (in.wireframe) {

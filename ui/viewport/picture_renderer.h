@@ -19,8 +19,9 @@ struct FrameInput {
     float exposure = 1.0F; ///< factor on radiance
     LightShares shares;    ///< of the light to show
     bool wireframe = false;
-    bool refine = false; ///< smooth edges where the interactive picture goes without
-    int width = 1;       ///< device pixels
+    bool caustic_boxes = false; ///< outline the caustic textures
+    bool refine = false;        ///< smooth edges where the interactive picture goes without
+    int width = 1;              ///< device pixels
     int height = 1;
     double pixel_ratio = 1.0;
     unsigned framebuffer = 0; ///< to draw into
@@ -42,7 +43,8 @@ public:
     /// Does a part of the work on the reflection probe; call until it returns false.
     bool step_probe(const ViewScene& view, const Scene& scene, float exposure, const LightShares& shares);
 
-    /// Uploads a solution's light maps before it is shown, a few milliseconds at a time; true when all are there.
+    /// Uploads a solution's light maps and caustics before it is shown, a few milliseconds at a time; true when all are
+    /// there.
     bool upload_ahead(const Solution& solution) { return gl_ == nullptr || gpu_.upload_ahead(solution); }
     /// True when nothing of it is left to be uploaded ahead. Needs no context.
     [[nodiscard]] bool uploaded(const Solution& solution) const { return gl_ == nullptr || gpu_.uploaded(solution); }

@@ -55,6 +55,7 @@ struct ViewportWidget::Impl : ToolHost {
     double mean_radiance = 0;
     bool mean_is_final = false;
     bool wireframe = false;
+    bool caustic_boxes = false;
     bool cut_walls = true;
     LightShares shares;
     bool refine = false;
@@ -518,6 +519,13 @@ void ViewportWidget::set_wireframe(bool on) {
     }
 }
 
+void ViewportWidget::set_caustic_boxes(bool on) {
+    if (on != impl_->caustic_boxes) {
+        impl_->caustic_boxes = on;
+        impl_->picture_changed();
+    }
+}
+
 void ViewportWidget::set_cut_walls(bool on) {
     if (on != impl_->cut_walls) {
         impl_->cut_walls = on;
@@ -610,6 +618,7 @@ void ViewportWidget::paintGL() {
                   impl_->scale(),
                   impl_->shares,
                   impl_->wireframe,
+                  impl_->caustic_boxes,
                   impl_->refine,
                   std::max(1, int(std::lround(width() * ratio))),
                   std::max(1, int(std::lround(height() * ratio))),

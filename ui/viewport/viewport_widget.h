@@ -29,7 +29,8 @@ public:
     [[nodiscard]] bool walk_mode() const;
     void set_exposure(float ev); ///< stops, added to automatic exposure; never reaches the solver
     [[nodiscard]] float exposure() const;
-    void set_wireframe(bool on); ///< the display mesh's edges over the picture
+    void set_wireframe(bool on);     ///< the display mesh's edges over the picture
+    void set_caustic_boxes(bool on); ///< outlines of the caustic textures over the picture
     void set_cut_walls(bool on); ///< from outside, leave out the walls and the ceiling in front of the room (the default)
     void set_light_shares(const LightShares& shares); ///< what of the light is shown; all by default
     [[nodiscard]] LightShares light_shares() const;

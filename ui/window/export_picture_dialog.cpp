@@ -4,6 +4,7 @@
 #include "engine/view/tone.h"
 #include "ui/document/background.h"
 #include "ui/panels/number_field.h"
+#include "ui/window/settings.h"
 
 #include <QDialogButtonBox>
 #include <QFileDialog>
@@ -39,9 +40,7 @@ ExportPictureDialog::ExportPictureDialog(Scene scene, std::shared_ptr<const Solu
     layout->addLayout(form);
     auto* note = new QLabel(tr("PNG is shown as in the view; EXR holds linear values in cd/m\u00b2."));
     if (!(shares_ == LightShares{})) {
-        note->setText(
-            note->text() + QLatin1Char('\n') +
-            (shares_.direct ? tr("Only direct light, as in the view.") : tr("Only diffuse light, as in the view.")));
+        note->setText(note->text() + QLatin1Char('\n') + tr("Light as in the view: only %1.").arg(shares_text(shares_)));
     }
     note->setEnabled(false);
     layout->addWidget(note);

@@ -16,6 +16,9 @@
 #include "ui/window/settings.h"
 #include "ui/window/start_page.h"
 
+#include <algorithm>
+#include <array>
+
 #include <QActionGroup>
 #include <QCloseEvent>
 #include <QDockWidget>
@@ -236,10 +239,10 @@ void MainWindow::make_menus() {
     fill(tr("&Add"), {ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder, ActionId::AddCone,
                       ActionId::AddDisc, gap, ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight,
                       ActionId::AddSun, ActionId::AddDaylight, gap, ActionId::AddCamera});
-    auto* view =
-        fill(tr("&View"), {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap, ActionId::ExposureUp,
-                           ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::ShowDirect, ActionId::ShowDiffuse,
-                           gap, ActionId::Wireframe, ActionId::CutWalls, gap});
+    auto* view = fill(tr("&View"),
+                      {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap, ActionId::ExposureUp,
+                       ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::ShowDirect, ActionId::ShowDiffuse,
+                       ActionId::ShowCaustic, gap, ActionId::Wireframe, ActionId::CausticBoxes, ActionId::CutWalls, gap});
     docks_menu_ = view->addMenu(tr("&Panels"));
     const QList<QDockWidget*> docks = findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly);
     for (QDockWidget* dock : docks) {
@@ -417,27 +420,32 @@ void MainWindow::connect_view() {
     on(ActionId::ExposureDown, [this, expose] { expose(viewport_->exposure() - kExposureStep); });
     on(ActionId::ExposureReset, [expose] { expose(0); });
     connect((*actions_)[ActionId::Wireframe], &QAction::toggled, viewport_, &ViewportWidget::set_wireframe);
+    connect((*actions_)[ActionId::CausticBoxes], &QAction::toggled, viewport_, &ViewportWidget::set_caustic_boxes);
     (*actions_)[ActionId::CutWalls]->setChecked(true);
     connect((*actions_)[ActionId::CutWalls], &QAction::toggled, viewport_, &ViewportWidget::set_cut_walls);
     QAction* direct = (*actions_)[ActionId::ShowDirect];
     QAction* diffuse = (*actions_)[ActionId::ShowDiffuse];
-    direct->setChecked(Settings().light_shares().direct);
-    diffuse->setChecked(Settings().light_shares().diffuse);
-    viewport_->set_light_shares(Settings().light_shares());
-    const auto show_shares = [this, direct, diffuse](QAction* other) {
-        if (!direct->isChecked() && !diffuse->isChecked()) {
-            other->setChecked(true); // a black picture shows nothing; this comes back here
-            return;
-        }
-        const LightShares shares{diffuse->isChecked(), direct->isChecked()};
-        viewport_->set_light_shares(shares);
-        Settings().set_light_shares(shares);
-        say(shares == LightShares{}
-                ? tr("All light is shown.")
-                : (shares.direct ? tr("Only direct light is shown.") : tr("Only diffuse light is shown.")));
-    };
-    connect(direct, &QAction::toggled, this, [show_shares, diffuse] { show_shares(diffuse); });
-    connect(diffuse, &QAction::toggled, this, [show_shares, direct] { show_shares(direct); });
+    QAction* caustic = (*actions_)[ActionId::ShowCaustic];
+    const LightShares remembered = Settings().light_shares();
+    direct->setChecked(remembered.direct);
+    diffuse->setChecked(remembered.diffuse);
+    caustic->setChecked(remembered.caustic);
+    viewport_->set_light_shares(remembered);
+    const std::array switches{direct, diffuse, caustic};
+    for (QAction* changed : switches) {
+        connect(changed, &QAction::toggled, this, [this, changed, switches] {
+            if (std::none_of(switches.begin(), switches.end(), [](QAction* one) { return one->isChecked(); })) {
+                for (QAction* other : switches) { // a black picture shows nothing; these come back here
+                    other->setChecked(other != changed);
+                }
+                return;
+            }
+            const LightShares shares{switches[1]->isChecked(), switches[0]->isChecked(), switches[2]->isChecked()};
+            viewport_->set_light_shares(shares);
+            Settings().set_light_shares(shares);
+            say(shares == LightShares{} ? tr("All light is shown.") : tr("Shown: only %1.").arg(shares_text(shares)));
+        });
+    }
     connect(viewport_, &ViewportWidget::message, this, &MainWindow::say);
     on(ActionId::StopLight, [this] { engine_->cancel(); });
     on(ActionId::ResumeLight, [this] { engine_->resume(); });

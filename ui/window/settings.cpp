@@ -1,5 +1,6 @@
 #include "ui/window/settings.h"
 
+#include <QCoreApplication>
 #include <QDir>
 #include <QFileInfo>
 #include <QSettings>
@@ -15,7 +16,22 @@ const QString kRecent = QStringLiteral("files/recent");
 const QString kFolder = QStringLiteral("files/folder");
 const QString kDirect = QStringLiteral("view/direct_light");
 const QString kDiffuse = QStringLiteral("view/diffuse_light");
+const QString kCaustic = QStringLiteral("view/caustics");
 } // namespace
+
+QString shares_text(const LightShares& shares) {
+    QStringList names;
+    if (shares.direct) {
+        names.append(QCoreApplication::translate("LightShares", "direct light"));
+    }
+    if (shares.diffuse) {
+        names.append(QCoreApplication::translate("LightShares", "diffuse light"));
+    }
+    if (shares.caustic) {
+        names.append(QCoreApplication::translate("LightShares", "caustics"));
+    }
+    return names.join(QCoreApplication::translate("LightShares", ", ", "between items of a list"));
+}
 
 QByteArray Settings::geometry() const { return QSettings().value(kGeometry).toByteArray(); }
 QByteArray Settings::layout() const { return QSettings().value(kLayout).toByteArray(); }
@@ -53,14 +69,16 @@ void Settings::set_last_folder(const QString& folder) { QSettings().setValue(kFo
 
 LightShares Settings::light_shares() const {
     const QSettings settings;
-    const LightShares shares{settings.value(kDiffuse, true).toBool(), settings.value(kDirect, true).toBool()};
-    return shares.diffuse || shares.direct ? shares : LightShares{};
+    const LightShares shares{settings.value(kDiffuse, true).toBool(), settings.value(kDirect, true).toBool(),
+                             settings.value(kCaustic, true).toBool()};
+    return shares.diffuse || shares.direct || shares.caustic ? shares : LightShares{};
 }
 
 void Settings::set_light_shares(const LightShares& shares) {
     QSettings settings;
     settings.setValue(kDirect, shares.direct);
     settings.setValue(kDiffuse, shares.diffuse);
+    settings.setValue(kCaustic, shares.caustic);
 }
 
 } // namespace atrium::ui

@@ -9,6 +9,9 @@
 
 namespace atrium::ui {
 
+/// The shares by name, as "direct light, caustics".
+QString shares_text(const LightShares& shares);
+
 /// Thin face of QSettings. UI thread only.
 class Settings {
 public:
