@@ -16,17 +16,17 @@
 namespace atrium {
 namespace {
 
-constexpr std::size_t kMostBoxes = 16;   // of a chart
-constexpr double kBoxWaste = 1.2;        // two boxes become one when it is hardly larger than both
-constexpr int kMostTexels = 8192;        // a side of a chart's grid
-constexpr double kThinTexel = 0.25;      // paper: texels with less of their surface have no say in the contrast
-constexpr double kFullest = 0.01;        // of what a texel may hold: the mean over a chart
-constexpr float kLongestAxis = 0.2F;     // of a kernel, as a share of its texture
-constexpr double kManyPerTexel = 8.0;    // landings a texel from which the least kernel may shrink
-constexpr float kLeastOfMany = 0.3F;     // texels: what it shrinks to
-constexpr float kWidest = 3.0F;          // texels: kernels of a larger half width go to coarser texels
-constexpr std::size_t kShared = 200'000; // landings on a chart that several threads share
-constexpr std::size_t kMostParts = 8;
+constexpr std::size_t kMostBoxes = 16;         // of a chart
+constexpr double kBoxWaste = 1.2;              // two boxes become one when it is hardly larger than both
+constexpr int kMostTexels = 8192;              // a side of a chart's grid
+constexpr double kThinTexel = 0.25;            // paper: texels with less of their surface have no say in the contrast
+constexpr double kFullest = 0.01;              // of what a texel may hold: the mean over a chart
+constexpr float kLongestAxis = 0.2F;           // of a kernel, as a share of its texture
+constexpr double kManyPerTexel = 8.0;          // landings a texel from which the least kernel may shrink
+constexpr float kLeastOfMany = 0.3F;           // texels: what it shrinks to
+constexpr float kWidest = 3.0F;                // texels: kernels of a larger half width go to coarser texels
+constexpr std::size_t kShared = 200'000;       // landings on a chart that several threads share
+constexpr std::size_t kSpareTexels = 1U << 23; // that all threads together may have for themselves
 constexpr std::size_t kGrain = 16'384;
 
 /// Landings on one chart, side by side in memory, for they are looked at many times.
@@ -269,7 +269,8 @@ private:
     // Charts are built side by side; only the landings of a large one are worth sharing out, each part with sums of its own.
     // Whole numbers add up to the same whatever the parts.
     template <class F> void fill_side_by_side(std::vector<Level>& levels, const F& some) const {
-        const std::size_t parts = mine_.size() > kShared ? std::min<std::size_t>(thread_limit(), kMostParts) : 1;
+        const std::size_t most = std::clamp<std::size_t>(kSpareTexels / levels[0].grid.size(), 1, thread_limit());
+        const std::size_t parts = mine_.size() > kShared ? most : 1;
         std::vector<std::vector<Level>> more(parts - 1, levels);
         const std::size_t grain = chunk_count(mine_.size(), parts);
         parallel_chunks(mine_.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t part) {
