@@ -10,59 +10,90 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <optional>
 
 namespace atrium {
 namespace {
 
-constexpr std::size_t kMostBoxes = 16;   // of a chart
-constexpr double kBoxWaste = 1.2;        // two boxes become one when it is hardly larger than both
-constexpr int kMostTexels = 8192;        // a side of a chart's grid
-constexpr float kLongestAxis = 0.2F;     // of a kernel, as a share of its texture
-constexpr double kManyPerTexel = 8.0;    // landings a texel from which the least kernel may shrink
-constexpr float kLeastOfMany = 0.3F;     // texels: what it shrinks to
-constexpr float kWidest = 3.0F;          // texels: kernels of a larger half width go to coarser texels
-constexpr std::size_t kShared = 200'000; // landings on a chart that several threads share
-constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kMostBoxes = 16;         // of a chart
+constexpr double kBoxWaste = 1.2;              // two boxes become one when it is hardly larger than both
+constexpr int kMostTexels = 8192;              // a side of a chart's grid
+constexpr double kThinTexel = 0.25;            // paper: texels with less of their surface have no say in the contrast
+constexpr double kFullest = 0.01;              // of what a texel may hold: the mean over a chart
+constexpr float kLongestAxis = 0.2F;           // of a kernel, as a share of its texture
+constexpr double kManyPerTexel = 8.0;          // landings a texel from which the least kernel may shrink
+constexpr float kLeastOfMany = 0.3F;           // texels: what it shrinks to
+constexpr float kWidest = 3.0F;                // texels: kernels of a larger half width go to coarser texels
+constexpr std::size_t kShared = 200'000;       // landings on a chart that several threads share
+constexpr std::size_t kSpareTexels = 1U << 23; // that all threads together may have for themselves
+constexpr std::size_t kGrain = 16'384;
+
+/// Landings on one chart, side by side in memory, for they are looked at many times.
+struct Landed {
+    std::vector<std::uint32_t> index; ///< among all
+    std::vector<CausticLanding> landings;
+};
 
 /// One chart, its landings and what is decided about them.
 class ChartBuild {
 public:
-    ChartBuild(const ChartDomain& domain, std::span<const CausticLanding> landings, std::vector<std::uint32_t> mine,
-               const SurfaceCharts& charts, std::span<const vec3> positions, std::span<const uvec3> triangles,
-               const CausticSettings& settings, CausticSide& out)
-        : domain_(domain), landings_(landings), mine_(std::move(mine)), charts_(charts), positions_(positions),
-          triangles_(triangles), settings_(settings), out_(out) {}
+    ChartBuild(const ChartDomain& domain, Landed landed, const SurfaceCharts& charts, std::span<const vec3> positions,
+               std::span<const uvec3> triangles, const CausticSettings& settings, CausticSide& out)
+        : domain_(domain), mine_(std::move(landed.index)), own_(std::move(landed.landings)), charts_(charts),
+          positions_(positions), triangles_(triangles), settings_(settings), out_(out) {}
 
     void run(double texel_share) {
         record_.chart = domain_.chart;
         record_.particles = mine_.size();
         record_.extent = domain_.extent;
         record_.threshold = settings_.paper ? settings_.eta : settings_.least_dispersion;
+        float strongest = 0.0F;
+        for (const CausticLanding& l : own_) {
+            strongest = std::max(strongest, luminance(l.power));
+        }
+        weight_.reserve(mine_.size());
         std::vector<WeightedPoint> points;
         points.reserve(mine_.size());
-        for (const std::uint32_t i : mine_) {
-            points.push_back({landings_[i].uv, double(luminance(landings_[i].power))});
+        in_textures_ = OrderFreeSum(double(strongest));
+        OrderFreeSum on_mesh = in_textures_;
+        for (const CausticLanding& l : own_) {
+            const double w = strongest > 0.0F ? double(luminance(l.power)) / double(strongest) : 0.0;
+            weight_.push_back(exact_weight(w));
+            points.push_back({l.uv, weight_.back()});
         }
         const Choice choice = choose_texture(points, domain_, charts_, positions_, triangles_, settings_);
         record_.dispersion = float(choice.dispersion);
+        record_.contrast = choice.contrast;
         record_.decision = choice.decision;
-        if (settings_.paper) {
-            paper();
+        power_ = all_power();
+        if (power_ > kFullest * CausticAccumulator::kMost * domain_.area) {
+            record_.decision = CausticRecord::Decision::Coarse;
+            record_.why = "more light than a texture can hold";
+        } else if (settings_.paper) {
+            paper(texel_share);
         } else if (record_.decision == CausticRecord::Decision::Texture) {
             by_footprints(texel_share);
         }
         if (record_.decision != CausticRecord::Decision::Texture) {
-            left_ = mine_;
+            left_ = all();
         }
-        for (const std::uint32_t i : left_) {
-            record_.power_mesh += luminance(landings_[i].power);
+        for (const std::uint32_t k : left_) {
+            on_mesh.add(double(luminance(own_[k].power)));
+            out_.on_mesh.push_back(mine_[k]);
         }
-        out_.on_mesh.insert(out_.on_mesh.end(), left_.begin(), left_.end());
+        record_.power_texture = in_textures_.value();
+        record_.power_mesh = on_mesh.value();
         out_.records.push_back(std::move(record_));
     }
 
 private:
     [[nodiscard]] vec2 size() const { return domain_.high - domain_.low; }
+    [[nodiscard]] std::vector<std::uint32_t> all() const {
+        std::vector<std::uint32_t> out(own_.size());
+        std::iota(out.begin(), out.end(), 0U);
+        return out;
+    }
 
     // A rectangle of whole texels of the chart's grid in chart space.
     [[nodiscard]] TexelGrid grid_of(const CellBox& box, int width, int height) const {
@@ -93,8 +124,7 @@ private:
     void by_footprints(double texel_share) {
         std::vector<std::pair<float, float>> minor;
         const vec2 metres = domain_.extent / size();
-        for (const std::uint32_t i : mine_) {
-            const CausticLanding& l = landings_[i];
+        for (const CausticLanding& l : own_) {
             const vec2 a = l.axis_a * metres, b = l.axis_b * metres;
             const float xx = a.x * a.x + b.x * b.x, xy = a.x * a.y + b.x * b.y, yy = a.y * a.y + b.y * b.y;
             const float low = 0.5F * (xx + yy) - std::sqrt(std::max(0.25F * (xx - yy) * (xx - yy) + xy * xy, 0.0F));
@@ -108,6 +138,7 @@ private:
         if (!known) {
             edge = std::min(edge, float(std::sqrt(domain_.area / double(mine_.size()))));
         }
+        edge = std::max(edge, float(std::sqrt(power_ / CausticAccumulator::kMost))); // all in one texel
         for (int attempt = 0; attempt < 8; ++attempt) {
             const auto side = [&](float extent) { return std::clamp(int(std::ceil(extent / edge)), 1, kMostTexels); };
             const int width = side(domain_.extent.x), height = side(domain_.extent.y);
@@ -127,6 +158,19 @@ private:
             }
             edge *= float(std::sqrt(texels / double(budget)) * 1.02);
         }
+    }
+
+    // Power of all landings, lumen: the sum of every one's strongest colour.
+    [[nodiscard]] double all_power() const {
+        double most = 0.0;
+        for (const CausticLanding& l : own_) {
+            most = std::max(most, double(max_component(l.power)));
+        }
+        OrderFreeSum sum(most);
+        for (const CausticLanding& l : own_) {
+            sum.add(double(max_component(l.power)));
+        }
+        return sum.value();
     }
 
     // Kernel of a landing on the chart's grid: bounds, texels.
@@ -155,16 +199,16 @@ private:
             const int x = std::clamp(int(at.x), 0, cw - 1), y = std::clamp(int(at.y), 0, ch - 1);
             return std::size_t(y) * std::size_t(cw) + std::size_t(x);
         };
-        for (const std::uint32_t i : mine_) {
-            power[cell_of(landings_[i])] += luminance(landings_[i].power);
+        for (std::size_t k = 0; k < mine_.size(); ++k) {
+            power[cell_of(own_[k])] += weight_[k];
         }
         const double dark = 0.25 * double(settings_.restriction) * *std::max_element(power.begin(), power.end());
         std::vector<std::uint8_t> lit(power.size(), 0);
-        for (const std::uint32_t i : mine_) {
-            if (power[cell_of(landings_[i])] < dark) {
+        for (const CausticLanding& l : own_) {
+            if (power[cell_of(l)] < dark) {
                 continue;
             }
-            const CellBox r = reach(landings_[i], width, height, float(cell));
+            const CellBox r = reach(l, width, height, float(cell));
             for (int y = r.y0 / cell; y < std::min((r.y1 + cell - 1) / cell, ch); ++y) {
                 for (int x = r.x0 / cell; x < std::min((r.x1 + cell - 1) / cell, cw); ++x) {
                     lit[std::size_t(y) * std::size_t(cw) + std::size_t(x)] = 1;
@@ -222,12 +266,31 @@ private:
         return out;
     }
 
+    // Charts are built side by side; only the landings of a large one are worth sharing out, each part with sums of its own.
+    // Whole numbers add up to the same whatever the parts.
+    template <class F> void fill_side_by_side(std::vector<Level>& levels, const F& some) const {
+        const std::size_t most = std::clamp<std::size_t>(kSpareTexels / levels[0].grid.size(), 1, thread_limit());
+        const std::size_t parts = mine_.size() > kShared ? most : 1;
+        std::vector<std::vector<Level>> more(parts - 1, levels);
+        const std::size_t grain = chunk_count(mine_.size(), parts);
+        parallel_chunks(mine_.size(), grain, [&](std::size_t begin, std::size_t end, std::size_t part) {
+            some(begin, end, part == 0 ? levels : more[part - 1]);
+        });
+        for (std::size_t level = 0; level < levels.size(); ++level) {
+            parallel_chunks(levels[level].grid.size(), kGrain, [&](std::size_t begin, std::size_t end, std::size_t) {
+                for (const std::vector<Level>& part : more) {
+                    levels[level].sums.add(part[level].sums, begin, end);
+                }
+            });
+        }
+    }
+
     void fill(const std::vector<CellBox>& boxes, int width, int height) {
         std::vector<std::uint32_t> of_box(mine_.size(), std::uint32_t(boxes.size()));
         std::vector<std::size_t> count(boxes.size() + 1, 0);
         const vec2 per_tile = vec2(float(width), float(height)) / size();
         for (std::size_t k = 0; k < mine_.size(); ++k) {
-            const vec2 at = (landings_[mine_[k]].uv - domain_.low) * per_tile;
+            const vec2 at = (own_[k].uv - domain_.low) * per_tile;
             const int x = std::clamp(int(at.x), 0, width - 1), y = std::clamp(int(at.y), 0, height - 1);
             for (std::uint32_t b = 0; b < boxes.size(); ++b) {
                 if (boxes[b].contains(x, y)) {
@@ -251,30 +314,23 @@ private:
             limits.most = std::max(kLongestAxis * float(std::max(width, height)), 2.0F);
             std::vector<Level> levels = make_levels(grid, box, width, height, limits);
             std::vector<std::uint8_t> lost(mine_.size(), 0);
-            // Charts are built side by side; only a large one is worth sharing out.
-            const bool shared = mine_.size() > kShared;
-            const auto some = [&](std::size_t begin, std::size_t end, std::size_t) {
+            const auto some = [&](std::size_t begin, std::size_t end, std::vector<Level>& to) {
                 for (std::size_t k = begin; k < end; ++k) {
                     if (of_box[k] != b) {
                         continue;
                     }
-                    const CausticLanding& l = landings_[mine_[k]];
+                    const CausticLanding& l = own_[k];
                     std::size_t level = 0;
-                    for (float w = kernel_width(l, grid, limits); w > kWidest && level + 1 < levels.size(); w *= 0.5F) {
+                    for (float w = kernel_width(l, grid, limits); w > kWidest && level + 1 < to.size(); w *= 0.5F) {
                         ++level;
                     }
-                    Level& at = levels[level];
-                    lost[k] = splat(l, at.grid, at.range, at.limits, at.sums, shared) ? 0 : 1;
+                    lost[k] = splat(l, to[level].grid, to[level].range, to[level].limits, to[level].sums) ? 0 : 1;
                 }
             };
-            if (shared) {
-                parallel_chunks(mine_.size(), kGrain, some);
-            } else {
-                some(0, mine_.size(), 0);
-            }
+            fill_side_by_side(levels, some);
             for (std::size_t k = 0; k < mine_.size(); ++k) {
                 if (of_box[k] == b && lost[k] == 0) {
-                    record_.power_texture += luminance(landings_[mine_[k]].power);
+                    in_textures_.add(double(luminance(own_[k].power)));
                 } else if (of_box[k] == b) {
                     of_box[k] = std::uint32_t(boxes.size());
                 }
@@ -287,7 +343,7 @@ private:
         }
         for (std::size_t k = 0; k < mine_.size(); ++k) {
             if (of_box[k] == boxes.size()) {
-                left_.push_back(mine_[k]);
+                left_.push_back(std::uint32_t(k));
             }
         }
         if (record_.boxes.empty()) {
@@ -297,31 +353,39 @@ private:
 
     // ---- the algorithms of 2001 ----
 
+    // Equation 1 with the area of a full texel for all, see peak().
     [[nodiscard]] std::vector<Rgb> histogram(const TexelGrid& grid, const std::vector<std::uint32_t>& which) const {
         CausticAccumulator sums(grid.size());
-        for (const std::uint32_t i : which) {
-            const std::size_t texel = grid.texel_at(landings_[i].uv);
-            if (grid.area[texel] > 0.0) {
-                sums.add(texel, dvec3(landings_[i].power) / grid.area[texel]);
-            }
+        for (const std::uint32_t k : which) {
+            sums.add(grid.texel_at(own_[k].uv), dvec3(own_[k].power) / grid.largest);
         }
         return sums.image();
     }
 
-    void paper() {
-        const int level = caustic_level(double(mine_.size()), double(settings_.epsilon));
-        const TexelCount count = paper_resolution(level, domain_.extent);
-        record_.width = count.width;
-        record_.height = count.height;
+    void paper(double texel_share) {
+        const double budget = std::max(texel_share * double(settings_.most_texels), 256.0);
+        int level = caustic_level(double(mine_.size()), double(settings_.epsilon));
         record_.why =
             fmt::format("equation 7: 2^{} a side for {} particles at epsilon {}", level, mine_.size(), settings_.epsilon);
+        const auto within = [&](std::size_t textures) { // the memory for textures
+            const double most =
+                std::min(budget / double(textures), kFullest * CausticAccumulator::kMost * domain_.area / power_);
+            while (level > 0 && std::ldexp(1.0, 2 * level) > most) {
+                --level;
+                record_.why = fmt::format("2^{} a side: what the memory for textures allows", level);
+            }
+            return paper_resolution(level, domain_.extent);
+        };
+        TexelCount count = within(1);
+        record_.width = count.width;
+        record_.height = count.height;
         TexelGrid grid = grid_of({0, 0, int(count.width), int(count.height)}, int(count.width), int(count.height));
-        const std::vector<Rgb> whole = histogram(grid, mine_);
-        float most = 0.0F, least = std::numeric_limits<float>::infinity();
+        const std::vector<Rgb> whole = histogram(grid, all());
+        const float most = peak(whole, grid);
+        float least = most;
         for (std::size_t i = 0; i < whole.size(); ++i) {
-            if (grid.area[i] > 0.0) {
-                most = std::max(most, luminance(whole[i]));
-                least = std::min(least, luminance(whole[i]));
+            if (grid.area[i] > kThinTexel * grid.largest) {
+                least = std::min(least, luminance(whole[i]) * float(grid.largest / grid.area[i]));
             }
         }
         record_.contrast = caustic_contrast(least, most);
@@ -344,27 +408,27 @@ private:
         std::stable_sort(boxes.begin(), boxes.end(), [](const CellBox& a, const CellBox& b) { return a.area() > b.area(); });
         boxes.resize(std::min(boxes.size(), kMostBoxes));
         boxes = merge_boxes(std::move(boxes), 0.0, kMostBoxes);
-        left_ = mine_;
+        const vec2 texel = size() / vec2(float(count.width), float(count.height));
+        count = within(boxes.size());
+        left_ = all();
         for (const CellBox& box : boxes) {
             std::vector<std::uint32_t> inside, outside;
-            for (const std::uint32_t i : left_) {
-                const vec2 at = grid.to_texels(landings_[i].uv);
-                (box.contains(std::clamp(int(at.x), 0, int(count.width) - 1),
-                              std::clamp(int(at.y), 0, int(count.height) - 1))
+            for (const std::uint32_t k : left_) {
+                const vec2 at = grid.to_texels(own_[k].uv);
+                (box.contains(std::clamp(int(at.x), 0, int(grid.width) - 1), std::clamp(int(at.y), 0, int(grid.height) - 1))
                      ? inside
                      : outside)
-                    .push_back(i);
+                    .push_back(k);
             }
             if (inside.size() < settings_.least_particles) {
                 continue;
             }
-            const vec2 texel = size() / vec2(float(count.width), float(count.height));
             const TexelGrid own =
                 make_grid(domain_, charts_, positions_, triangles_, domain_.low + texel * vec2(float(box.x0), float(box.y0)),
                           domain_.low + texel * vec2(float(box.x1), float(box.y1)), count.width, count.height);
-            std::vector<Rgb> image = spiral_means(histogram(own, inside), own, settings_.spiral_radius);
-            for (const std::uint32_t i : inside) {
-                record_.power_texture += luminance(landings_[i].power);
+            const std::vector<Rgb> image = spiral_means(histogram(own, inside), own, settings_.spiral_radius);
+            for (const std::uint32_t k : inside) {
+                in_textures_.add(double(luminance(own_[k].power)));
             }
             add_ring(own, image);
             left_ = std::move(outside);
@@ -385,7 +449,7 @@ private:
         grid.height += below + above;
         grid.low -= texel * vec2(float(left), float(below));
         grid.high += texel * vec2(float(right), float(above));
-        grid.area.assign(grid.size(), 1.0); // rings are black all over
+        grid.area.assign(grid.size(), own.largest); // rings are black all over
         std::vector<Rgb> ringed(grid.size(), Rgb(0.0F));
         for (std::uint32_t y = 0; y < own.height; ++y) {
             for (std::uint32_t x = 0; x < own.width; ++x) {
@@ -398,15 +462,18 @@ private:
     }
 
     const ChartDomain& domain_;
-    std::span<const CausticLanding> landings_;
-    std::vector<std::uint32_t> mine_;
+    std::vector<std::uint32_t> mine_; ///< the chart's landings among all
+    std::vector<CausticLanding> own_; ///< the same as they are
     const SurfaceCharts& charts_;
     std::span<const vec3> positions_;
     std::span<const uvec3> triangles_;
     const CausticSettings& settings_;
     CausticSide& out_;
     CausticRecord record_;
-    std::vector<std::uint32_t> left_; ///< landings for the mesh
+    std::vector<double> weight_; ///< luminance of each of own_ over that of the strongest, see exact_weight()
+    double power_ = 0.0;         ///< see all_power()
+    OrderFreeSum in_textures_{0.0};
+    std::vector<std::uint32_t> left_; ///< for the mesh; into own_
 };
 
 } // namespace
@@ -416,29 +483,66 @@ CausticSide build_caustics(std::span<const CausticLanding> landings, const Surfa
                            const CausticSettings& settings) {
     CausticSide out;
     const std::vector<ChartDomain> domains = chart_domains(charts, positions, triangles);
-    std::vector<std::vector<std::uint32_t>> of_chart(domains.size());
-    std::size_t charted = 0;
+    const auto chart_of = [&](const CausticLanding& l) {
+        const std::uint32_t chart = charts.chart_of_triangle[l.triangle];
+        const bool usable =
+            chart != SurfaceCharts::kNone && domains[chart].area > 0.0 && is_finite(l.uv) && is_finite(l.power);
+        return usable ? chart : SurfaceCharts::kNone;
+    };
+    std::vector<std::size_t> count(domains.size(), 0);
+    for (const CausticLanding& l : landings) {
+        const std::uint32_t chart = chart_of(l);
+        if (chart != SurfaceCharts::kNone) {
+            ++count[chart];
+        }
+    }
+    std::vector<Landed> landed(domains.size());
+    for (std::size_t c = 0; c < domains.size(); ++c) {
+        landed[c].index.reserve(count[c]);
+        landed[c].landings.reserve(count[c]);
+    }
+    float strongest = 0.0F; // off the charts
+    std::optional<CausticRecord> uncharted;
     for (std::uint32_t i = 0; i < landings.size(); ++i) {
-        const std::uint32_t chart = charts.chart_of_triangle[landings[i].triangle];
-        if (chart == SurfaceCharts::kNone || !(domains[chart].area > 0.0) || !is_finite(landings[i].uv)) {
-            out.on_mesh.push_back(i);
+        const std::uint32_t chart = chart_of(landings[i]);
+        if (chart != SurfaceCharts::kNone) {
+            landed[chart].index.push_back(i);
+            landed[chart].landings.push_back(landings[i]);
             continue;
         }
-        of_chart[chart].push_back(i);
-        ++charted;
+        out.on_mesh.push_back(i);
+        strongest = is_finite(landings[i].power) ? std::max(strongest, luminance(landings[i].power)) : strongest;
+    }
+    const double charted = double(landings.size() - out.on_mesh.size());
+    if (!out.on_mesh.empty()) {
+        CausticRecord record;
+        record.chart = SurfaceCharts::kNone;
+        record.decision = CausticRecord::Decision::Uncharted;
+        record.particles = out.on_mesh.size();
+        record.why = "pieces too small for a chart";
+        OrderFreeSum power{double(strongest)};
+        for (const std::uint32_t i : out.on_mesh) {
+            if (is_finite(landings[i].power)) {
+                power.add(double(luminance(landings[i].power)));
+            }
+        }
+        record.power_mesh = power.value();
+        uncharted = std::move(record);
     }
     std::vector<CausticSide> parts(domains.size());
     parallel_chunks(domains.size(), 1, [&](std::size_t c, std::size_t, std::size_t) {
-        if (!of_chart[c].empty()) {
-            const double share = double(of_chart[c].size()) / double(charted); // of the memory, by particles
-            ChartBuild(domains[c], landings, std::move(of_chart[c]), charts, positions, triangles, settings, parts[c])
-                .run(share);
+        if (count[c] > 0) {
+            const double share = double(count[c]) / charted; // of the memory, by particles
+            ChartBuild(domains[c], std::move(landed[c]), charts, positions, triangles, settings, parts[c]).run(share);
         }
     });
     for (CausticSide& part : parts) {
         out.textures.insert(out.textures.end(), part.textures.begin(), part.textures.end());
         out.records.insert(out.records.end(), part.records.begin(), part.records.end());
         out.on_mesh.insert(out.on_mesh.end(), part.on_mesh.begin(), part.on_mesh.end());
+    }
+    if (uncharted) {
+        out.records.push_back(std::move(*uncharted));
     }
     std::sort(out.on_mesh.begin(), out.on_mesh.end());
     return out;

@@ -6,22 +6,23 @@ namespace atrium {
 namespace {
 
 constexpr double kPerBin = 16.0;      // particles a bin of the test, on average
+constexpr double kFewestBins = 9.0;   // however few they are: ten particles in one place of four may be chance
+constexpr double kThinBin = 0.25;     // of the mean bin's surface: bins with less are put together
 constexpr double kPerFineBin = 4.0;   // of the look for detail: what is bright has many more
 constexpr double kBeyondChance = 9.0; // variances by which a bin must be off to count as detail: three standard deviations
 constexpr double kLeastDetail = 0.05; // of the mean light: less is not seen
 constexpr std::uint32_t kMostBins = 256;
 
 struct Sums {
-    double all = 0.0, squares = 0.0, fourths = 0.0;
+    double squares = 0.0, fourths = 0.0;
 };
 
 Sums sums_of(std::span<const WeightedPoint> points) {
     Sums s;
     for (const WeightedPoint& p : points) {
-        const double w2 = p.weight * p.weight;
-        s.all += p.weight;
+        const double w2 = exact_weight(p.weight * p.weight);
         s.squares += w2;
-        s.fourths += w2 * w2;
+        s.fourths += exact_weight(w2 * w2);
     }
     return s;
 }
@@ -32,6 +33,19 @@ std::vector<double> histogram(std::span<const WeightedPoint> points, const Texel
         out[grid.texel_at(p.uv)] += p.weight;
     }
     return out;
+}
+
+// Contrast of what bins with enough surface hold per area.
+float contrast_of(const std::vector<double>& sums, const TexelGrid& grid) {
+    const double thin = kThinBin * grid.largest;
+    double most = 0.0, least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        if (grid.area[i] > thin) {
+            most = std::max(most, sums[i] / grid.area[i]);
+            least = std::min(least, sums[i] / grid.area[i]);
+        }
+    }
+    return most > 0.0 ? caustic_contrast(float(least / most), 1.0F) : 0.0F;
 }
 
 std::uint32_t bins(double extent, double edge) {
@@ -92,31 +106,58 @@ bool has_detail(const std::vector<double>& seen, const TexelGrid& fine, const Te
 
 float caustic_contrast(float p_min, float p_max) { return p_max > 0.0F ? (p_max - std::max(p_min, 0.0F)) / p_max : 0.0F; }
 
+double exact_weight(double weight) { return std::round(std::clamp(weight, 0.0, 1.0) * 0x1.0p24) * 0x1.0p-24; }
+
 double dispersion(std::span<const double> sums, std::span<const double> expected, double sum_of_squares,
                   double sum_of_fourths) {
     double total = 0.0, area = 0.0;
+    std::size_t lit = 0;
     for (std::size_t i = 0; i < sums.size(); ++i) {
         total += sums[i];
         area += expected[i];
+        lit += expected[i] > 0.0 ? 1 : 0;
     }
     if (!(area > 0.0) || !(sum_of_squares > 0.0)) {
         return 0.0;
     }
-    // Each bin's squared deviation over its variance: mean 1, variance 2 and what rare heavy particles add.
-    double x = 0.0, variance = 0.0;
+    // Chi square: each bin's squared deviation over its variance.
+    double chi2 = 0.0, inverse = 0.0;
     std::size_t count = 0;
-    const double heavy = sum_of_fourths / (sum_of_squares * sum_of_squares);
+    const auto take = [&](double sum, double p) {
+        const double d = sum - total * p;
+        chi2 += d * d / (sum_of_squares * p);
+        inverse += 1.0 / p;
+        ++count;
+    };
+    // One particle in a sliver of surface would outweigh all others: slivers are one bin together.
+    const double thin = kThinBin / double(lit);
+    double thin_sum = 0.0, thin_share = 0.0;
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const double p = expected[i] / area;
-        if (!(p > 1e-12)) {
-            continue;
+        if (p >= thin) {
+            take(sums[i], p);
+        } else {
+            thin_sum += sums[i];
+            thin_share += p;
         }
-        const double d = sums[i] - total * p;
-        x += d * d / (sum_of_squares * p);
-        variance += 2.0 + heavy / p;
-        ++count;
     }
-    return count < 2 ? 0.0 : (x - double(count - 1)) / std::sqrt(variance);
+    if (thin_share >= thin) {
+        take(thin_sum, thin_share);
+    }
+    if (count < 2) {
+        return 0.0;
+    }
+    // Its mean and variance over all ways to drop these particles; then the normal deviate of the same probability (Wilson
+    // and Hilferty 1931), for with few bins chi square itself strays far more often than a normal deviate would.
+    const double heavy = sum_of_fourths / (sum_of_squares * sum_of_squares);
+    const auto m = double(count);
+    const double mean = m - 1.0;
+    const double variance = 2.0 * mean * std::max(1.0 - heavy, 0.0) + heavy * std::max(inverse - m * m, 0.0);
+    if (!(variance > 0.0)) {
+        return 0.0; // a single particle
+    }
+    const double spread = variance / (9.0 * mean * mean); // 2 / (9 degrees of freedom)
+    return (std::cbrt(chi2 / mean) - (1.0 - spread)) / std::sqrt(spread);
 }
 
 Choice choose_texture(std::span<const WeightedPoint> points, const ChartDomain& domain, const SurfaceCharts& charts,
@@ -127,11 +168,13 @@ Choice choose_texture(std::span<const WeightedPoint> points, const ChartDomain& 
     }
     const double n = double(points.size());
     // Over the whole chart, bins about square.
-    const double edge = std::sqrt(double(domain.extent.x) * domain.extent.y * kPerBin / n);
+    const double edge = std::sqrt(double(domain.extent.x) * domain.extent.y / std::max(n / kPerBin, kFewestBins));
     const TexelGrid grid = make_grid(domain, charts, positions, triangles, domain.low, domain.high,
                                      bins(domain.extent.x, edge), bins(domain.extent.y, edge));
     const Sums all = sums_of(points);
-    out.dispersion = dispersion(histogram(points, grid), grid.area, all.squares, all.fourths);
+    const std::vector<double> seen = histogram(points, grid);
+    out.dispersion = dispersion(seen, grid.area, all.squares, all.fourths);
+    out.contrast = contrast_of(seen, grid);
     if (out.dispersion < double(settings.least_dispersion)) {
         out.decision = CausticRecord::Decision::Uniform;
         return out;
@@ -153,7 +196,7 @@ Choice choose_texture(std::span<const WeightedPoint> points, const ChartDomain& 
     std::vector<double> density = histogram(points, coarse);
     std::vector<double> squares(coarse.size(), 0.0);
     for (const WeightedPoint& p : points) {
-        squares[coarse.texel_at(p.uv)] += p.weight * p.weight;
+        squares[coarse.texel_at(p.uv)] += exact_weight(p.weight * p.weight);
     }
     for (std::size_t i = 0; i < coarse.size(); ++i) {
         density[i] = coarse.area[i] > 0.0 ? density[i] / coarse.area[i] : 0.0;

@@ -5,6 +5,13 @@
 namespace atrium {
 namespace {
 
+constexpr double kLeastCover =
+    0.02;                           // share of surface under a kernel below which it is widened: light on slivers would glow
+constexpr double kHardlyAny = 1e-4; // the same once widened: left to the mesh
+constexpr int kNarrow = 8;          // texels: rows of fewer are not worth a closer look
+constexpr float kWidened = 1.5F;    // texels
+constexpr double kThinTexel = 0.25; // of a full texel: with less surface it does not make the peak
+
 // Symmetric 2 x 2 matrix in texels.
 struct Spread {
     float xx = 0.0F, xy = 0.0F, yy = 0.0F;
@@ -35,69 +42,138 @@ Spread kernel_of(const CausticLanding& landing, const TexelGrid& grid, const Ker
 
 } // namespace
 
-bool splat(const CausticLanding& landing, const TexelGrid& grid, const LitRange& range, const KernelLimits& limits,
-           CausticAccumulator& sums, bool shared, double sign) {
-    const Spread m = kernel_of(landing, grid, limits);
-    const std::array<int, 2>& first = range.first;
-    const std::array<int, 2>& last = range.last;
-    const float determinant = std::max(m.xx * m.yy - m.xy * m.xy, 1e-12F);
-    const float ixx = m.yy / determinant, ixy = -m.xy / determinant, iyy = m.xx / determinant;
-    const vec2 at = grid.to_texels(landing.uv);
-    const float rx = std::sqrt(m.xx), ry = std::sqrt(m.yy);
-    const int x0 = std::max(int(std::floor(at.x - rx - 0.5F)), first[0]), x1 = std::min(int(at.x + rx + 1.0F), last[0]);
-    const int y0 = std::max(int(std::floor(at.y - ry - 0.5F)), first[1]), y1 = std::min(int(at.y + ry + 1.0F), last[1]);
-    double total = 0.0;
-    // What falls beyond the chart's edge is thrown back as by a mirror there: even light stays even up to the edge.
-    const auto fold = [](float place, float reach, float low, float high) {
-        return std::array<float, 3>{0.0F, low >= 0.0F && place - reach < low ? low : -1.0F,
-                                    high >= 0.0F && place + reach > high ? high : -1.0F};
-    };
-    const std::array<float, 3> fold_x = fold(at.x, rx, range.edge_low.x, range.edge_high.x);
-    const std::array<float, 3> fold_y = fold(at.y, ry, range.edge_low.y, range.edge_high.y);
-    const auto kernel = [&](float dx, float dy) {
+namespace {
+
+// A landing's kernel on the texels of a grid.
+struct Kernel {
+    vec2 at{0.0F};
+    float ixx = 0.0F, ixy = 0.0F, iyy = 0.0F;
+    int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+    // Edges of the chart within reach, where what falls beyond is thrown back as by a mirror: even light stays even up to
+    // the edge. Negative: none.
+    std::array<float, 3> fold_x{}, fold_y{};
+    bool folds = false;
+
+    Kernel(const vec2& place, const Spread& m, const LitRange& range) : at(place) {
+        const float determinant = std::max(m.xx * m.yy - m.xy * m.xy, 1e-12F);
+        ixx = m.yy / determinant;
+        ixy = -m.xy / determinant;
+        iyy = m.xx / determinant;
+        const float rx = std::sqrt(m.xx), ry = std::sqrt(m.yy);
+        x0 = std::max(int(std::floor(at.x - rx - 0.5F)), range.first[0]);
+        x1 = std::min(int(at.x + rx + 1.0F), range.last[0]);
+        y0 = std::max(int(std::floor(at.y - ry - 0.5F)), range.first[1]);
+        y1 = std::min(int(at.y + ry + 1.0F), range.last[1]);
+        const auto fold = [](float to, float reach, float low, float high) {
+            return std::array<float, 3>{0.0F, low >= 0.0F && to - reach < low ? low : -1.0F,
+                                        high >= 0.0F && to + reach > high ? high : -1.0F};
+        };
+        fold_x = fold(at.x, rx, range.edge_low.x, range.edge_high.x);
+        fold_y = fold(at.y, ry, range.edge_low.y, range.edge_high.y);
+        folds = fold_x[1] >= 0.0F || fold_x[2] >= 0.0F || fold_y[1] >= 0.0F || fold_y[2] >= 0.0F;
+    }
+
+    [[nodiscard]] float weight(float dx, float dy) const {
         return std::max(1.0F - (ixx * dx * dx + 2.0F * ixy * dx * dy + iyy * dy * dy), 0.0F);
-    };
-    const bool folds = fold_x[1] >= 0.0F || fold_x[2] >= 0.0F || fold_y[1] >= 0.0F || fold_y[2] >= 0.0F;
-    const auto for_each = [&](auto&& visit) {
-        for (int y = y0; y < y1; ++y) {
-            const float cy = float(y) + 0.5F;
-            for (int x = x0; x < x1; ++x) {
-                const float cx = float(x) + 0.5F;
-                float w = kernel(cx - at.x, cy - at.y);
-                for (std::size_t j = 0; folds && j < 3; ++j) {
-                    for (std::size_t i = 0; i < 3; ++i) {
-                        if (i + j > 0 && fold_x[i] >= 0.0F && fold_y[j] >= 0.0F) {
-                            w += kernel((i > 0 ? 2.0F * fold_x[i] - cx : cx) - at.x,
-                                        (j > 0 ? 2.0F * fold_y[j] - cy : cy) - at.y);
-                        }
-                    }
-                }
-                if (w > 0.0F) {
-                    visit(std::size_t(y) * grid.width + std::size_t(x), double(w));
+    }
+    [[nodiscard]] float folded_weight(float cx, float cy) const {
+        float w = weight(cx - at.x, cy - at.y);
+        for (std::size_t j = 0; j < 3; ++j) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                if (i + j > 0 && fold_x[i] >= 0.0F && fold_y[j] >= 0.0F) {
+                    w += weight((i > 0 ? 2.0F * fold_x[i] - cx : cx) - at.x, (j > 0 ? 2.0F * fold_y[j] - cy : cy) - at.y);
                 }
             }
         }
-    };
-    for_each([&](std::size_t i, double w) { total += w * grid.area[i]; });
-    if (total > 0.0) {
-        const dvec3 scaled = dvec3(landing.power) * (sign / total);
-        for_each([&](std::size_t i, double w) {
-            if (grid.area[i] > 0.0) {
-                shared ? sums.add_shared(i, scaled * w) : sums.add(i, scaled * w);
+        return w;
+    }
+    // The part of a row that the kernel can reach, or a little more.
+    [[nodiscard]] std::array<int, 2> columns(int y) const {
+        if (folds || x1 - x0 <= kNarrow) {
+            return {x0, x1};
+        }
+        const float dy = float(y) + 0.5F - at.y;
+        const float b = ixy * dy;
+        const float square = b * b - ixx * (iyy * dy * dy - 1.0F);
+        if (!(square > 0.0F)) {
+            return {x0, x0};
+        }
+        const float root = std::sqrt(square) / ixx, middle = at.x - b / ixx - 0.5F;
+        return {std::max(int(std::floor(middle - root)), x0), std::min(int(std::floor(middle + root)) + 1, x1)};
+    }
+};
+
+// Calls visit(row, from, to) for what the kernel can reach.
+template <class F> void for_each_row(const Kernel& kernel, const F& visit) {
+    for (int y = kernel.y0; y < kernel.y1; ++y) {
+        const auto [from, to] = kernel.columns(y);
+        visit(y, from, to);
+    }
+}
+
+} // namespace
+
+bool splat(const CausticLanding& landing, const TexelGrid& grid, const LitRange& range, const KernelLimits& limits,
+           CausticAccumulator& sums, double sign) {
+    static thread_local std::vector<float> weights;
+    const vec2 at = grid.to_texels(landing.uv);
+    const double strongest = std::max({landing.power.r, landing.power.g, landing.power.b});
+    const auto fits = [&](double per_area) { return strongest * per_area < 0.01 * CausticAccumulator::kMost; };
+    Spread m = kernel_of(landing, grid, limits);
+    for (const bool widened : {false, true}) {
+        if (widened) {
+            m.xx += kWidened * kWidened;
+            m.yy += kWidened * kWidened;
+        }
+        const Kernel kernel(at, m, range);
+        const std::size_t most =
+            std::size_t(std::max(kernel.x1 - kernel.x0, 0)) * std::size_t(std::max(kernel.y1 - kernel.y0, 0));
+        if (weights.size() < most) {
+            weights.resize(most);
+        }
+        float* next = weights.data();
+        double total = 0.0;
+        float sum = 0.0F;
+        for_each_row(kernel, [&](int y, int from, int to) {
+            const double* area = &grid.area[std::size_t(y) * grid.width];
+            const float cy = float(y) + 0.5F, dy = cy - at.y;
+            const float rest = 1.0F - kernel.iyy * dy * dy, slope = 2.0F * kernel.ixy * dy;
+            for (int x = from; x < to; ++x) {
+                const float cx = float(x) + 0.5F, dx = cx - at.x;
+                const float w =
+                    kernel.folds ? kernel.folded_weight(cx, cy) : std::max(rest - dx * (slope + kernel.ixx * dx), 0.0F);
+                *next++ = w;
+                sum += w;
+                total += double(w) * area[x];
             }
         });
-        return true;
+        if (total > (widened ? kHardlyAny : kLeastCover) * double(sum) * grid.largest && fits(4.0 / total)) {
+            const dvec3 scaled = dvec3(landing.power) * (sign / total);
+            const float* w = weights.data();
+            for_each_row(kernel, [&](int y, int from, int to) {
+                const std::size_t row = std::size_t(y) * grid.width;
+                for (int x = from; x < to; ++x, ++w) {
+                    const std::size_t i = row + std::size_t(x);
+                    if (*w > 0.0F && grid.area[i] > 0.0) {
+                        sums.add(i, scaled * double(*w));
+                    }
+                }
+            });
+            return true;
+        }
+        // A kernel between the middles of texels: the texel that it is in.
+        const bool any = range.last[0] > range.first[0] && range.last[1] > range.first[1];
+        if (any && !(sum > 0.0F)) {
+            const int x = std::clamp(int(std::floor(at.x)), range.first[0], range.last[0] - 1);
+            const int y = std::clamp(int(std::floor(at.y)), range.first[1], range.last[1] - 1);
+            const std::size_t i = std::size_t(y) * grid.width + std::size_t(x);
+            if (grid.area[i] > kLeastCover * grid.largest && fits(1.0 / grid.area[i])) {
+                sums.add(i, dvec3(landing.power) * (sign / grid.area[i]));
+                return true;
+            }
+        }
     }
-    // A kernel between the middles of texels: the texel that it is in.
-    const int x = std::clamp(int(std::floor(at.x)), first[0], last[0] - 1);
-    const int y = std::clamp(int(std::floor(at.y)), first[1], last[1] - 1);
-    const std::size_t i = std::size_t(y) * grid.width + std::size_t(x);
-    if (last[0] <= first[0] || last[1] <= first[1] || !(grid.area[i] > 0.0)) {
-        return false;
-    }
-    const dvec3 all = dvec3(landing.power) * (sign / grid.area[i]);
-    shared ? sums.add_shared(i, all) : sums.add(i, all);
-    return true;
+    return false;
 }
 
 float kernel_width(const CausticLanding& landing, const TexelGrid& grid, const KernelLimits& limits) {
@@ -119,6 +195,7 @@ TexelGrid coarser(const TexelGrid& grid) {
             out.area[std::size_t(y / 2) * out.width + x / 2] += grid.area[std::size_t(y) * grid.width + x];
         }
     }
+    out.largest = *std::max_element(out.area.begin(), out.area.end());
     return out;
 }
 
@@ -164,6 +241,16 @@ void add_coarser(const std::vector<Rgb>& from, const TexelGrid& coarse, int fact
     }
 }
 
+float peak(const std::vector<Rgb>& histogram, const TexelGrid& grid) {
+    float most = 0.0F;
+    for (std::size_t i = 0; i < histogram.size(); ++i) {
+        if (grid.area[i] > kThinTexel * grid.largest) {
+            most = std::max(most, luminance(histogram[i]) * float(grid.largest / grid.area[i]));
+        }
+    }
+    return most;
+}
+
 std::vector<Rgb> spiral_means(const std::vector<Rgb>& histogram, const TexelGrid& grid, float reach) {
     const auto width = int(grid.width), height = int(grid.height);
     // Texels around one in the order of their distance; those of one ring count together.
@@ -182,21 +269,21 @@ std::vector<Rgb> spiral_means(const std::vector<Rgb>& histogram, const TexelGrid
         }
     }
     std::stable_sort(steps.begin(), steps.end(), [](const Step& a, const Step& b) { return a.distance < b.distance; });
-    float most = 0.0F;
-    for (const Rgb& p : histogram) {
-        most = std::max(most, luminance(p));
-    }
+    // Light of texels with little surface counts in means, but by what a full texel would make of it and not as a peak.
+    const double thin = kThinTexel * grid.largest;
+    const float most = peak(histogram, grid);
     std::vector<Rgb> out(histogram.size(), Rgb(0.0F));
     dvec3 before(0.0), after(0.0);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const std::size_t i = std::size_t(y) * grid.width + std::size_t(x);
-            before += dvec3(histogram[i]) * grid.area[i];
+            before += dvec3(histogram[i]) * grid.largest;
             if (!(grid.area[i] > 0.0)) {
                 continue;
             }
-            Rgb sum(0.0F);
-            int count = 0;
+            dvec3 power(0.0);
+            double area = 0.0;
+            float met = 0.0F;
             for (std::size_t k = 0; k < steps.size();) {
                 const float ring = steps[k].distance;
                 for (; k < steps.size() && steps[k].distance == ring; ++k) {
@@ -206,15 +293,16 @@ std::vector<Rgb> spiral_means(const std::vector<Rgb>& histogram, const TexelGrid
                     }
                     const std::size_t j = std::size_t(v) * grid.width + std::size_t(u);
                     if (grid.area[j] > 0.0) {
-                        sum += histogram[j];
-                        ++count;
+                        power += dvec3(histogram[j]) * grid.largest;
+                        area += grid.area[j];
+                        met += luminance(histogram[j]) * float(grid.largest / std::max(grid.area[j], thin));
                     }
                 }
-                if (luminance(sum) >= most) {
+                if (met >= most) {
                     break;
                 }
             }
-            out[i] = count > 0 ? sum / float(count) : Rgb(0.0F);
+            out[i] = area > thin ? Rgb(power / area) : Rgb(0.0F);
             after += dvec3(out[i]) * grid.area[i];
         }
     }

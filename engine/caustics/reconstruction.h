@@ -22,11 +22,12 @@ struct LitRange {
 
 /// Spreads the power of a landing over the texels of a grid by an Epanechnikov kernel on its footprint: phi (1 - q), q =
 /// x^T M^-1 x < 1, M = footprint + least^2 (photon differentials, Schjoth et al. 2007). Weights are scaled over the surface
-/// in the texels, so the power is kept at the edge of a polygon and of the grid too, and thin slivers of surface do not
-/// glow; at the chart's own edges kernels are folded back. False where no texel in reach has surface: nothing is added.
-/// `shared`: other threads add to the same sums. `sign` = -1 takes a landing away again.
+/// in the texels, so the power is kept at the edge of a polygon and of the grid too; at the chart's own edges kernels are
+/// folded back. A kernel with hardly any surface under it is widened, so that slivers do not glow. False where that does
+/// not help or the texels could not hold the light: nothing is added. One thread at a time for the same `sums`. `sign` = -1
+/// takes a landing away again.
 bool splat(const CausticLanding& landing, const TexelGrid& grid, const LitRange& range, const KernelLimits& limits,
-           CausticAccumulator& sums, bool shared = false, double sign = 1.0);
+           CausticAccumulator& sums, double sign = 1.0);
 
 /// Half the width of a landing's kernel across its narrow side, texels of the grid.
 float kernel_width(const CausticLanding& landing, const TexelGrid& grid, const KernelLimits& limits);
@@ -39,9 +40,13 @@ TexelGrid coarser(const TexelGrid& grid);
 void add_coarser(const std::vector<Rgb>& from, const TexelGrid& coarse, int factor, const TexelGrid& grid,
                  const LitRange& range, std::vector<Rgb>& image);
 
+/// Largest value of a histogram per area, luminance, lux: p_max of the paper. `histogram` is PAPER equation 1 with the area
+/// of a full texel for all; texels with less than a quarter of it do not count.
+float peak(const std::vector<Rgb>& histogram, const TexelGrid& grid);
+
 /// PAPER equation 8: from every texel outwards in rings, until what was met reaches the histogram's largest value or the
-/// radius `reach` (texels); the texel becomes the mean over what was met. The whole is then scaled to the power of the
-/// histogram, which this smoothing alone does not keep.
+/// radius `reach` (texels); the texel becomes the mean over the surface that was met. The whole is then scaled to the power
+/// of the histogram, which this smoothing alone does not keep. `histogram` as for peak(); the result is irradiance, lux.
 std::vector<Rgb> spiral_means(const std::vector<Rgb>& histogram, const TexelGrid& grid, float reach);
 
 /// Carries light on into texels without surface next to lit ones, so that interpolation up to a polygon's edge does not

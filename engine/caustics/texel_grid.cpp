@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 
 namespace atrium {
 namespace {
@@ -37,12 +36,6 @@ double area_of(const Clipped& c) {
         sum += a.x * b.y - a.y * b.x;
     }
     return 0.5 * std::abs(sum);
-}
-
-// To the nearest whole number of quanta, halves away from zero: an amount and its negative cancel.
-std::int64_t quanta(double lux) {
-    const double q = std::clamp(lux * (1.0 / CausticAccumulator::kQuantum), -4e18, 4e18);
-    return std::int64_t(q < 0.0 ? q - 0.5 : q + 0.5);
 }
 
 } // namespace
@@ -118,40 +111,46 @@ TexelGrid make_grid(const ChartDomain& domain, const SurfaceCharts& charts, std:
                 continue;
             }
             double left = 1e30, right = -1e30;
+            std::array<double, 2> from{1e30, 1e30}, to{-1e30, -1e30}; // on the row's lower and upper line
             for (int i = 0; i < row.count; ++i) {
-                left = std::min(left, row.p[std::size_t(i)].x);
-                right = std::max(right, row.p[std::size_t(i)].x);
+                const dvec2& corner = row.p[std::size_t(i)];
+                left = std::min(left, corner.x);
+                right = std::max(right, corner.x);
+                for (std::size_t line = 0; line < 2; ++line) {
+                    if (std::abs(corner.y - (double(y) + double(line))) < 1e-9) {
+                        from[line] = std::min(from[line], corner.x);
+                        to[line] = std::max(to[line], corner.x);
+                    }
+                }
             }
             const int x0 = std::max(int(std::floor(left)), 0), x1 = std::min(int(std::floor(right)), int(width) - 1);
-            Clipped rest = row;
-            for (int x = x0; x <= x1 && rest.count >= 3; ++x) {
-                const Clipped cell = clip(rest, 0, x + 1.0, -1.0);
-                const Clipped inside = x == x0 ? clip(cell, 0, x, 1.0) : cell;
-                grid.area[std::size_t(y) * width + std::size_t(x)] += area_of(inside) * density;
-                rest = clip(rest, 0, x + 1.0, 1.0);
+            // What is convex and reaches both lines above and below a texel holds all of it.
+            const double full_from = std::max(from[0], from[1]), full_to = std::min(to[0], to[1]);
+            for (int x = x0; x <= x1; ++x) {
+                double covered = 1.0;
+                if (double(x) < full_from || double(x + 1) > full_to) {
+                    covered = area_of(clip(clip(row, 0, x, 1.0), 0, x + 1.0, -1.0));
+                }
+                grid.area[std::size_t(y) * width + std::size_t(x)] += covered * density;
             }
         }
     }
+    grid.largest = *std::max_element(grid.area.begin(), grid.area.end());
     return grid;
 }
 
-void CausticAccumulator::add(std::size_t texel, const dvec3& irradiance) {
-    for (int k = 0; k < 3; ++k) {
-        sums_[3 * texel + std::size_t(k)] += quanta(irradiance[k]);
-    }
-}
-
-void CausticAccumulator::add_shared(std::size_t texel, const dvec3& irradiance) {
-    for (int k = 0; k < 3; ++k) {
-        std::atomic_ref<std::int64_t>(sums_[3 * texel + std::size_t(k)])
-            .fetch_add(quanta(irradiance[k]), std::memory_order_relaxed);
+void CausticAccumulator::add(const CausticAccumulator& other, std::size_t begin, std::size_t end) {
+    for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
+        sums_[i] += other.sums_[i];
     }
 }
 
 std::vector<Rgb> CausticAccumulator::image() const {
     std::vector<Rgb> out(sums_.size() / 3);
     for (std::size_t i = 0; i < out.size(); ++i) {
-        out[i] = Rgb(dvec3(double(sums_[3 * i]), double(sums_[3 * i + 1]), double(sums_[3 * i + 2])) * kQuantum);
+        for (std::size_t k = 0; k < 3; ++k) {
+            out[i][int(k)] = float(double(std::int64_t(sums_[3 * i + k])) * kQuantum);
+        }
     }
     return out;
 }

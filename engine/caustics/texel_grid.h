@@ -3,6 +3,8 @@
 
 #include "engine/caustics/caustic_builder.h"
 
+#include <emmintrin.h>
+
 namespace atrium {
 
 /// The part of a surface that a caustic texture may lie on: one chart.
@@ -25,6 +27,7 @@ struct TexelGrid {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::vector<double> area; ///< square metres of surface in each texel, row by row; 0 where there is none
+    double largest = 0.0;     ///< of them: that of a texel full of surface, where any is
 
     [[nodiscard]] std::size_t size() const { return std::size_t(width) * height; }
     /// Texel coordinates of a chart-space position: the integer part is the texel.
@@ -40,20 +43,40 @@ TexelGrid make_grid(const ChartDomain& domain, const SurfaceCharts& charts, std:
                     std::uint32_t height);
 
 /// Light on a texel grid as whole numbers of kQuantum lux: sums do not depend on their order, and what is taken away again
-/// leaves the bits as they were. Holds up to 3e10 lux.
+/// leaves the bits as they were. The quantum, 6e-8 lux, is little beside starlight (1e-4 lux); 63 bits of it are
+/// 5e11 lux, a hundred times what a lens can make of the sun (1e5 lux over the square of 4.6 mrad = 5e9).
 class CausticAccumulator {
 public:
-    static constexpr double kQuantum = 0x1.0p-28;
+    static constexpr double kQuantum = 0x1.0p-24;
+    static constexpr double kMost = 0x1.0p38; ///< lux: what one texel may hold
     explicit CausticAccumulator(std::size_t texels) : sums_(3 * texels, 0) {}
-    /// Adds irradiance (lux; negative takes it away) to a texel. One thread at a time.
-    void add(std::size_t texel, const dvec3& irradiance);
-    /// The same from any thread.
-    void add_shared(std::size_t texel, const dvec3& irradiance);
+    /// Adds irradiance (lux, at most kMost; negative takes it away) to a texel. One thread at a time.
+    void add(std::size_t texel, const dvec3& irradiance) {
+        for (int k = 0; k < 3; ++k) {
+            sums_[3 * texel + std::size_t(k)] += quanta(irradiance[k]);
+        }
+    }
+    /// Adds another's sums to rows of this one's texels: [begin, end) of them all.
+    void add(const CausticAccumulator& other, std::size_t begin, std::size_t end);
     [[nodiscard]] std::vector<Rgb> image() const;
     friend bool operator==(const CausticAccumulator&, const CausticAccumulator&) = default;
 
 private:
-    std::vector<std::int64_t> sums_;
+    // To the nearest whole number, of two the even one: an amount and its negative cancel.
+    static std::uint64_t quanta(double lux) { return std::uint64_t(_mm_cvtsd_si64(_mm_set_sd(lux * (1.0 / kQuantum)))); }
+    std::vector<std::uint64_t> sums_; ///< two's complement: whatever is taken away before it is added, all comes out right
+};
+
+/// Sum of amounts that does not depend on their order: whole multiples of 2^-34 of the largest.
+class OrderFreeSum {
+public:
+    explicit OrderFreeSum(double largest) : quantum_(largest > 0.0 ? std::ldexp(largest, -34) : 1.0) {}
+    void add(double amount) { sum_ += std::int64_t(std::llround(amount / quantum_)); }
+    [[nodiscard]] double value() const { return double(sum_) * quantum_; }
+
+private:
+    double quantum_;
+    std::int64_t sum_ = 0;
 };
 
 } // namespace atrium

@@ -141,19 +141,22 @@ struct Spread { // symmetric 2 x 2
 
 // Share of the blur that is there anyway (the source's size, rough surfaces) by which a kernel is widened. Such blur throws
 // neighbours of a stream about: their kernels no longer tile the light but fall on it by chance, n of them over the area of
-// image and blur together. As many must overlap as make their mean smooth, kCrowd times what tiling needs, but never more
-// than the blur itself is wide. `scale` is what own was scaled by.
-float blur_share(const Spread& own, const Spread& blur, float scale) {
-    constexpr float kCrowd = 20.0F;
+// image and blur together. As many must overlap as make their mean smooth, `crowd` times what tiling needs, but never more
+// than a share of the blur itself. With more particles more overlap and the share shrinks, so that noise and bias both
+// vanish in the end: kernels that shrink as fast as particles lie closer keep their noise for ever. `scale` is what own was
+// scaled by.
+float blur_share(const Spread& own, const Spread& blur, float scale, float n) {
+    const float crowd = 20.0F * std::max(std::sqrt(n / 1e4F), 1.0F);
+    const float most = std::min(std::pow(n / 5e4F, -2.0F / 3.0F), 1.0F);
     Spread spread = own;
     spread.xx += scale * scale * blur.xx;
     spread.xy += scale * scale * blur.xy;
     spread.yy += scale * scale * blur.yy;
-    const float missing = std::max(kCrowd * kCrowd * spread.determinant() - own.determinant(), 0.0F);
+    const float missing = std::max(crowd * crowd * spread.determinant() - own.determinant(), 0.0F);
     const float mixed = own.xx * blur.yy + own.yy * blur.xx - 2.0F * own.xy * blur.xy;
     const float root = std::sqrt(std::max(mixed * mixed + 4.0F * blur.determinant() * missing, 0.0F));
     const float below = mixed + root; // det(own + x blur) = det own + missing, stable where the blur is a line
-    return below > 0.0F ? std::min(2.0F * missing / below, 1.0F) : 0.0F;
+    return below > 0.0F ? std::min(2.0F * missing / below, most) : 0.0F;
 }
 
 // Half axes of the kernel: what lies between a particle and its neighbours, and a share of the blur.
@@ -162,7 +165,8 @@ void footprint(const Beam& beam, const vec3& normal, std::uint32_t count, Landin
     vec3 t;
     vec3 b;
     make_frame(normal, t, b);
-    const float scale = 0.5F * kSpacing / std::sqrt(float(std::max(count, 1U)));
+    const auto n = float(std::max(count, 1U));
+    const float scale = 0.5F * kSpacing / std::sqrt(n);
     Spread own;
     Spread blur;
     for (std::size_t k = 0; k < beam.used; ++k) {
@@ -173,7 +177,7 @@ void footprint(const Beam& beam, const vec3& normal, std::uint32_t count, Landin
             blur.add(v);
         }
     }
-    const float share = blur_share(own, blur, scale);
+    const float share = blur_share(own, blur, scale, n);
     const float xx = own.xx + share * blur.xx, xy = own.xy + share * blur.xy, yy = own.yy + share * blur.yy;
     if (!std::isfinite(xx + xy + yy)) {
         return;
