@@ -438,5 +438,36 @@ TEST(MirrorLight, BrightSpotsAreNotGatheredTwice) {
     }
 }
 
+// The same through the engine: on the wall, at a sensor in the air; and by the particles of the paper.
+TEST(MirrorLight, ImagesInSolutions) {
+    const Scene scene = plane_mirror();
+    Solved s = solve(scene, SolverSettings::Quality::Draft);
+    ASSERT_TRUE(s.solution);
+    const struct {
+        dvec3 at;
+        double expected;
+    } points[] = {{{4, 1.5, 2}, 2.864788976 + 8.841941283},
+                  {{4, 3.5, 2}, 2.293008438 + 5.093266048},
+                  {{4, 4.5, 2}, 1000.0 / (4 * kPiD) * 3.0 / std::pow(18.0, 1.5)}};
+    for (const auto& p : points) {
+        const SensorReading shown = read_surface(scene, *s.solution, p.at, kWall);
+        ASSERT_TRUE(shown.on_surface);
+        EXPECT_NEAR(luminance(shown.irradiance) / p.expected, 1.0, 0.01) << p.at.y;
+        EXPECT_NEAR(luminance(s.engine.gather_free(p.at, kWall).irradiance) / p.expected, 1.0, 1e-4) << p.at.y;
+    }
+    EXPECT_EQ(s.solution->statistics.particles_stored, 0U);
+    EXPECT_NEAR(s.solution->statistics.energy.defect, 0.0, 0.01);
+
+    SolveOptions options;
+    options.quality = SolverSettings::Quality::Draft;
+    options.paper_mode = true;
+    GiEngine engine;
+    const auto paper = engine.solve(scene, options, RunContext{});
+    ASSERT_TRUE(paper);
+    EXPECT_GT((*paper)->statistics.particles_stored, 0U);
+    const SensorReading shown = read_surface(scene, **paper, points[1].at, kWall);
+    EXPECT_NEAR(luminance(shown.irradiance) / points[1].expected, 1.0, 0.1);
+}
+
 } // namespace
 } // namespace atrium
