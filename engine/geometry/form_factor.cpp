@@ -8,7 +8,7 @@
 namespace atrium {
 
 double form_factor_to_polygon(const vec3& point, const vec3& normal, std::span<const vec3> polygon) {
-    constexpr std::size_t kMaxCorners = 8;
+    constexpr std::size_t kMaxCorners = 12;
     ATRIUM_CHECK(polygon.size() <= kMaxCorners);
     const dvec3 n(normal);
     std::array<dvec3, kMaxCorners> corner;

@@ -37,11 +37,16 @@ DirectSample DirectLight::irradiance(const vec3& point, const vec3& normal, unsi
 }
 
 DirectSample DirectLight::lamps_irradiance(const vec3& point, const vec3& normal, unsigned sun_rays) const {
+    return lamps_irradiance(point, normal, sun_rays, nullptr);
+}
+
+DirectSample DirectLight::lamps_irradiance(const vec3& point, const vec3& normal, unsigned sun_rays,
+                                           const MirrorSight* over) const {
     DirectSample out;
     for (const PlacedLight& placed : lights_) {
         const Light& light = placed.light;
         if (light.kind == Light::Kind::Directional) {
-            add_sun(placed, point, normal, sun_rays, out);
+            add_sun(placed, point, normal, sun_rays, over, out);
             continue;
         }
         const vec3 d = placed.position - point;
@@ -55,7 +60,9 @@ DirectSample DirectLight::lamps_irradiance(const vec3& point, const vec3& normal
         if (cosine <= 0.0F || candela <= 0.0F) {
             continue;
         }
-        out.irradiance += light.color * (candela * cosine / distance2) * rays_.transmittance(point, placed.position);
+        const Rgb through =
+            over != nullptr ? over->transmittance(placed.position) : rays_.transmittance(point, placed.position);
+        out.irradiance += light.color * (candela * cosine / distance2) * through;
     }
     return out;
 }
@@ -65,13 +72,16 @@ DirectSample DirectLight::sky_irradiance(const vec3& point, const vec3& normal, 
 }
 
 void DirectLight::add_sun(const PlacedLight& sun, const vec3& point, const vec3& normal, unsigned sun_rays,
-                          DirectSample& out) const {
+                          const MirrorSight* over, DirectSample& out) const {
+    const auto light_from = [&](const vec3& to_sun) {
+        return over != nullptr ? over->transmittance_to_infinity(to_sun) : rays_.transmittance_to_infinity(point, to_sun);
+    };
     const Rgb full = sun.light.color * sun.light.intensity;
     const float radius = std::tan(float(radians_from_degrees(0.5 * sun.light.angular_diameter_degrees)));
     const float cosine = -glm::dot(normal, sun.axis);
     if (!(radius > 0.0F)) {
         if (cosine > 0.0F) {
-            out.irradiance += full * cosine * rays_.transmittance_to_infinity(point, -sun.axis);
+            out.irradiance += full * cosine * light_from(-sun.axis);
         }
         return;
     }
@@ -79,6 +89,15 @@ void DirectLight::add_sun(const PlacedLight& sun, const vec3& point, const vec3&
         return; // wholly below the horizon
     }
     const bool whole = cosine > 1.5F * radius; // the disc stands above the horizon
+    bool may_agree = whole;
+    if (over != nullptr) {
+        const MirrorSight::Cover cover = over->cover(-sun.axis, std::atan(radius));
+        if (cover == MirrorSight::Cover::None) {
+            return;
+        }
+        // The first few rays may well pass by a small mirror on all sides.
+        may_agree = whole && cover == MirrorSight::Cover::Whole && over->fills();
+    }
     const std::vector<vec2>& disc = disc_pattern(std::max(sun_rays, 1U));
     vec3 t;
     vec3 b;
@@ -88,13 +107,13 @@ void DirectLight::add_sun(const PlacedLight& sun, const vec3& point, const vec3&
     std::size_t traced = 0;
     for (; traced < disc.size(); ++traced) {
         // Where the first few rays all say the same, so would the others: only in penumbrae are they worth tracing.
-        if (traced == kSunScouts && whole && max_component(most - least) <= 0.01F) {
+        if (traced == kSunScouts && may_agree && max_component(most - least) <= 0.01F) {
             break;
         }
         const vec2 offset = radius * disc[traced];
         const vec3 to_sun = glm::normalize(offset.x * t + offset.y * b - sun.axis);
         const float c = whole ? cosine : glm::dot(normal, to_sun);
-        const Rgb through = c > 0.0F ? rays_.transmittance_to_infinity(point, to_sun) : Rgb(0.0F);
+        const Rgb through = c > 0.0F ? light_from(to_sun) : Rgb(0.0F);
         least = glm::min(least, through);
         most = glm::max(most, through);
         sum += through * std::max(c, 0.0F);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/radiosity/sky_light.h"
+#include "engine/raycast/mirror_sight.h"
 
 #include <vector>
 
@@ -32,12 +33,20 @@ public:
     /// The two parts of irradiance(): sun, point and spot lights, whose shadows have sharp edges and which cost a few rays;
     /// and the sky, which is soft and costs many.
     [[nodiscard]] DirectSample lamps_irradiance(const vec3& point, const vec3& normal, unsigned sun_rays) const;
+    /// What sun, point and spot lights send over a mirror.
+    [[nodiscard]] DirectSample lamps_irradiance(const MirrorSight& over, unsigned sun_rays) const {
+        return lamps_irradiance(over.image(), over.image_normal(), sun_rays, &over);
+    }
     [[nodiscard]] DirectSample sky_irradiance(const vec3& point, const vec3& normal, unsigned sky_rays) const;
     /// Flux of all point and spot lights, lumen.
     [[nodiscard]] double emitted_flux() const;
 
 private:
-    void add_sun(const PlacedLight& sun, const vec3& point, const vec3& normal, unsigned sun_rays, DirectSample& out) const;
+    // With `over`, point and normal are its image.
+    [[nodiscard]] DirectSample lamps_irradiance(const vec3& point, const vec3& normal, unsigned sun_rays,
+                                                const MirrorSight* over) const;
+    void add_sun(const PlacedLight& sun, const vec3& point, const vec3& normal, unsigned sun_rays, const MirrorSight* over,
+                 DirectSample& out) const;
 
     const RayScene& rays_;
     std::vector<PlacedLight> lights_;

@@ -43,9 +43,9 @@ Hierarchy tree_of(const Hierarchy& solved, const LeafFlags& bright) {
 } // namespace
 
 IndirectGather::IndirectGather(const Hierarchy& solved, const RayScene& rays, LeafFlags bright, DirectAtHit direct,
-                               const Rgb& sky, std::function<bool(const Hit&)> by_image)
-    : h_(solved), rays_(rays), bright_(std::move(bright)), direct_(std::move(direct)), sky_(sky),
-      by_image_(std::move(by_image)), bright_tree_(tree_of(solved, bright_)), bright_gather_(bright_tree_, rays),
+                               const Rgb& sky, const MirrorLight* mirrors)
+    : h_(solved), rays_(rays), bright_(std::move(bright)), direct_(std::move(direct)), sky_(sky), mirrors_(mirrors),
+      bright_tree_(tree_of(solved, bright_)), bright_gather_(bright_tree_, rays),
       offset_(std::clamp(1e-5F * rays.bounds().diagonal(), 1e-6F, 1e-3F)), directions_(cosine_directions()) {}
 
 Rgb IndirectGather::along(const vec3& origin, const vec3& direction, std::uint32_t index, float& distance) const {
@@ -75,7 +75,7 @@ Rgb IndirectGather::along(const vec3& origin, const vec3& direction, std::uint32
             break;
         }
         if (way.bends > bends) {
-            imaged = way.bends == 1 && by_image_ && by_image_(hit);
+            imaged = way.bends == 1 && mirrors_ != nullptr && mirrors_->carries(hit);
         }
     }
     return sum;
@@ -91,6 +91,11 @@ FieldSample IndirectGather::irradiance(const vec3& point, const vec3& normal, co
         const DirectSample bright = bright_gather_.irradiance(point, normal, settings.bright);
         out.irradiance = bright.irradiance;
         out.variance = bright.variance;
+        if (mirrors_ != nullptr) {
+            const DirectSample over = mirrors_->irradiance(point, normal, settings.bright, nullptr, &bright_gather_);
+            out.irradiance += over.irradiance;
+            out.variance += over.variance;
+        }
     }
     vec3 t;
     vec3 b;

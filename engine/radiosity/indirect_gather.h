@@ -4,6 +4,7 @@
 
 #include "engine/radiosity/irradiance_cache.h"
 #include "engine/radiosity/light_split.h"
+#include "engine/radiosity/mirror_light.h"
 #include "engine/radiosity/point_gather.h"
 
 #include <functional>
@@ -26,10 +27,10 @@ using DirectAtHit = std::function<bool(const Hit& hit, Rgb& irradiance)>;
 class IndirectGather {
 public:
     /// `bright` flags leaves that are gathered by name and left out of the hemisphere (bright_leaves()).
-    /// `sky` = radiance that rays see which leave the scene over mirrors or through lenses, cd/m2. `by_image` tells of the
-    /// first mirror on a way whether light that stands out is looked for over it by name.
+    /// `sky` = radiance that rays see which leave the scene over mirrors or through lenses, cd/m2. Over the flat
+    /// mirrors of `mirrors` (may be null) `bright` leaves are looked for by name too, one reflection each.
     IndirectGather(const Hierarchy& solved, const RayScene& rays, LeafFlags bright, DirectAtHit direct = {},
-                   const Rgb& sky = Rgb(0.0F), std::function<bool(const Hit&)> by_image = {});
+                   const Rgb& sky = Rgb(0.0F), const MirrorLight* mirrors = nullptr);
     IndirectGather(const IndirectGather&) = delete;
     IndirectGather& operator=(const IndirectGather&) = delete;
 
@@ -47,7 +48,7 @@ private:
     LeafFlags bright_;
     DirectAtHit direct_;
     Rgb sky_;
-    std::function<bool(const Hit&)> by_image_;
+    const MirrorLight* mirrors_;
     Hierarchy bright_tree_; ///< empty when nothing stands out
     PointGather bright_gather_;
     float offset_ = 1e-4F;         ///< of ray origins from their surface, metres

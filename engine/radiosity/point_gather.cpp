@@ -4,6 +4,7 @@
 #include "engine/geometry/form_factor.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace atrium {
@@ -28,8 +29,19 @@ bool faces_point(const vec3& on_plane, const vec3& normal, const SurfacePoint& p
 
 constexpr std::uint32_t kMostFaces = 512; // of a group that are looked at singly
 
+// Form factor of a convex polygon, or of what can be seen of it over a mirror.
+double form_factor(const SurfacePoint& p, std::span<const vec3> corners, const MirrorSight* over) {
+    if (over == nullptr) {
+        return form_factor_to_polygon(p.position, p.normal, corners);
+    }
+    std::array<vec3, MirrorSight::kMaxCorners> seen;
+    const std::size_t count = over->clip(corners, seen);
+    return count > 0 ? form_factor_to_polygon(p.position, p.normal, std::span(seen).first(count)) : 0.0;
+}
+
 // Faces one by one; of many, evenly chosen ones stand for all.
-Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e, const SurfacePoint& p) {
+Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e, const SurfacePoint& p,
+                     const MirrorSight* over) {
     const std::uint32_t step = (e.face_count + kMostFaces - 1) / kMostFaces;
     float factor = 0.0F;
     float chosen = 0.0F;
@@ -38,13 +50,15 @@ Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e,
         const auto corner = rays.triangle(face.surface, face.triangle);
         chosen += face.area;
         if (faces_point(corner[0], face.normal, p)) {
-            factor += float(form_factor_to_polygon(p.position, p.normal, corner));
+            factor += float(form_factor(p, corner, over));
         }
     }
     return e.radiosity * std::min(factor * (e.area / chosen), 1.0F);
 }
 
-CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, const SurfacePoint& p) {
+// What can be seen of patches and faces over a mirror is cut out exactly; clusters count as if all of them could be seen.
+CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, const SurfacePoint& p,
+                 const MirrorSight* over) {
     const Element& e = h.elements[index];
     CutNode out;
     out.element = index;
@@ -55,12 +69,15 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, 
     if (glm::dot(d, p.normal) <= -e.radius) {
         return out; // below the horizon
     }
+    if (over != nullptr && over->misses(e.centre, e.radius)) {
+        return out;
+    }
     if (e.kind == Kind::Patch) {
         if (!faces_point(e.centre, e.normal, p)) {
             return out;
         }
         const float coverage = h.coverage(e);
-        const auto factor = coverage * float(form_factor_to_polygon(p.position, p.normal, h.corners(e)));
+        const auto factor = coverage * float(form_factor(p, h.corners(e), over));
         out.contribution = e.radiosity * factor;
         // Where the surface lies within a cell that it does not fill is as uncertain as how bright it is there.
         out.error = e.leaf() ? 0.0F : factor * (e.spread + std::max(1.0F - coverage, 0.0F) * luminance(e.radiosity));
@@ -68,8 +85,8 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, 
     }
     const float r = glm::length(d);
     if (e.kind == Kind::Faces) {
-        if (r < 4.0F * e.radius) {
-            out.contribution = faces_one_by_one(h, rays, e, p);
+        if (r < 4.0F * e.radius || over != nullptr) {
+            out.contribution = faces_one_by_one(h, rays, e, p, over);
             return out;
         }
     } else if (r < 1.5F * e.radius) {
@@ -112,11 +129,48 @@ struct SingleRays {
 };
 
 constexpr unsigned kFewRays = 8;             // that are shot at an element before they may be found to agree
+constexpr unsigned kTries = 4;               // sample points for each ray
+constexpr unsigned kTriesOverMirror = 32;    // the same where most of them may be out of sight
 constexpr std::uint64_t kPickSalt = 0x9E37U; // keeps the picks apart from the elements' sample points
+
+// A point of a convex polygon, uniform by area.
+vec3 point_of_polygon(std::span<const vec3> corners, vec2 u) {
+    const auto part = [&](std::size_t k) {
+        return glm::length(glm::cross(corners[k] - corners[0], corners[k + 1] - corners[0]));
+    };
+    float area = 0.0F;
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
+        area += part(k);
+    }
+    float at = u.x * area;
+    std::size_t k = 1;
+    for (; k + 2 < corners.size() && at >= part(k); ++k) {
+        at -= part(k);
+    }
+    const float root = std::sqrt(part(k) > 0.0F ? std::clamp(at / part(k), 0.0F, 1.0F) : 0.0F);
+    return corners[0] + root * ((corners[k] - corners[0]) * (1.0F - u.y) + (corners[k + 1] - corners[0]) * u.y);
+}
+
+/// Where the rays to an element go that is looked at over a mirror.
+struct InMirror {
+    std::array<vec3, MirrorSight::kMaxCorners> corners; ///< of the part in sight
+    std::size_t count = 0;                              ///< 0: points are looked for all over the element
+    bool cut_out = false;                               ///< its light is that of the part in sight alone
+
+    InMirror(const Hierarchy& h, const Element& e, const MirrorSight* over) {
+        if (over != nullptr) {
+            cut_out = e.kind != Kind::Cluster;
+            count = e.kind == Kind::Patch && h.patches[e.patch].shape != PatchCell::Shape::Partial
+                        ? over->clip(h.corners(e), corners)
+                        : 0;
+        }
+    }
+};
 
 } // namespace
 
-PointGather::Visibility PointGather::visibility(std::uint32_t element, const SurfacePoint& receiver, unsigned count) const {
+PointGather::Visibility PointGather::visibility(std::uint32_t element, const SurfacePoint& receiver, unsigned count,
+                                                const MirrorSight* over) const {
     Visibility out;
     const auto seed = std::uint32_t(hash64(h_.elements[element].path));
     Rgb seen(0.0F);
@@ -125,11 +179,19 @@ PointGather::Visibility PointGather::visibility(std::uint32_t element, const Sur
     // over, up to four tries for each ray.
     // A quarter of the rays is enough where all of them agree: they are spread over the whole element.
     const unsigned first = std::max(count / 4, kFewRays);
-    for (unsigned i = 0; out.rays < count && i < 4 * count; ++i) {
-        if (out.rays == first && (out.clear == 0.0F || out.clear == float(first))) {
+    const InMirror window(h_, h_.elements[element], over);
+    const unsigned tries = over == nullptr ? kTries : kTriesOverMirror;
+    for (unsigned i = 0; out.rays < count && i < tries * count; ++i) {
+        // Rays that all miss a mirror which is no rectangle, or hide which part of a cluster is in sight, tell nothing.
+        if (out.rays == first && ((out.clear == 0.0F && (over == nullptr || (window.cut_out && over->fills()))) ||
+                                  (out.clear == float(first) && (over == nullptr || window.cut_out)))) {
             break;
         }
-        const SurfacePoint y = sample_point(h_, rays_, element, sobol_owen2(i, 0, seed), true);
+        const vec2 u = sobol_owen2(i, 0, seed);
+        const SurfacePoint y = window.count == 0
+                                   ? sample_point(h_, rays_, element, u, true)
+                                   : SurfacePoint{point_of_polygon(std::span(window.corners).first(window.count), u),
+                                                  h_.elements[element].normal};
         const vec3 d = y.position - receiver.position;
         const float d2 = glm::dot(d, d);
         const float cp = glm::dot(d, receiver.normal);
@@ -137,11 +199,15 @@ PointGather::Visibility PointGather::visibility(std::uint32_t element, const Sur
         if (cp <= 0.0F || cy <= 0.0F || d2 <= 0.0F) {
             continue;
         }
+        if (window.cut_out && !over->crosses(y.position)) {
+            continue;
+        }
         ++out.rays;
         // A floor on the distance keeps one near sample from deciding everything.
         const float near2 = std::max(d2, 0.01F * h_.elements[element].area);
         const float weight = cp * cy / (d2 * near2);
-        const Rgb through = rays_.transmittance(receiver.position, y.position);
+        const Rgb through =
+            over != nullptr ? over->transmittance(y.position) : rays_.transmittance(receiver.position, y.position);
         seen += through * weight;
         out.clear += max_component(through) > 0.0F ? 1.0F : 0.0F;
         total_weight += weight;
@@ -155,14 +221,25 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
     if (direct_ != nullptr && !direct_->empty()) {
         out = direct_->irradiance(point, normal, settings.sun_rays, settings.sky_rays);
     }
+    add_surfaces({point, normal}, settings, nullptr, out);
+    return out;
+}
+
+DirectSample PointGather::irradiance(const MirrorSight& over, const GatherSettings& settings) const {
+    DirectSample out;
+    add_surfaces({over.image(), over.image_normal()}, settings, &over, out);
+    return out;
+}
+
+void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& settings, const MirrorSight* over,
+                               DirectSample& out) const {
     if (h_.empty() || !(h_.elements[0].power > 0.0F)) {
-        return out;
+        return;
     }
-    const SurfacePoint p{point, normal};
     const auto smaller_error = [](const CutNode& a, const CutNode& b) {
         return a.error < b.error || (a.error == b.error && a.element > b.element);
     };
-    std::vector<CutNode> cut{evaluate(h_, rays_, 0, p)};
+    std::vector<CutNode> cut{evaluate(h_, rays_, 0, p, over)};
     std::vector<CutNode> done; // nothing below them would change the result
     float total = luminance(cut[0].contribution + out.irradiance);
     while (!cut.empty() && cut.size() + done.size() < settings.max_cut) {
@@ -175,13 +252,13 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
         total -= luminance(top.contribution);
         const Element& e = h_.elements[top.element];
         if (e.kind == Kind::Faces) {
-            const CutNode exact{top.element, faces_one_by_one(h_, rays_, e, p), 0.0F};
+            const CutNode exact{top.element, faces_one_by_one(h_, rays_, e, p, over), 0.0F};
             total += luminance(exact.contribution);
             done.push_back(exact);
             continue;
         }
         for (std::uint32_t k = 0; k < e.child_count; ++k) {
-            const CutNode child = evaluate(h_, rays_, e.first_child + k, p);
+            const CutNode child = evaluate(h_, rays_, e.first_child + k, p, over);
             const float light = luminance(child.contribution);
             total += light;
             if (child.error > 0.0F) {
@@ -198,7 +275,7 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
         unoccluded += luminance(node.contribution);
     }
     if (!(unoccluded > 0.0F)) {
-        return out;
+        return;
     }
     // Strong elements get rays of their own; the many weak ones share theirs: stratified picks along their summed light.
     std::sort(done.begin(), done.end(), [](const CutNode& a, const CutNode& b) { return a.element < b.element; });
@@ -214,7 +291,7 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
         // Powers of two: the samples are stratified best, and neighbouring points use the very same ones.
         const float wanted = light / unoccluded * float(settings.rays);
         const auto count = unsigned(std::exp2(std::round(std::log2(std::max(wanted, 1.0F)))));
-        const Visibility v = visibility(node.element, p, count);
+        const Visibility v = visibility(node.element, p, count, over);
         out.irradiance += node.contribution * v.seen;
         const auto n = float(v.rays);
         if (n > 1.0F && v.clear > 0.0F && v.clear < n) {
@@ -235,7 +312,7 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
             continue;
         }
         const float weight = std::max(light, stride);
-        const Visibility v = visibility(node.element, p, 1);
+        const Visibility v = visibility(node.element, p, 1, over);
         sum += node.contribution * (weight / light) * v.seen;
         picked += weight;
         single.add(weight, v.clear);
@@ -244,7 +321,6 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
         out.irradiance += sum * (weak / picked);
     }
     out.variance += single.variance();
-    return out;
 }
 
 } // namespace atrium

@@ -25,6 +25,8 @@ public:
     /// Irradiance on a small plane at `point` (engine coordinates) with unit `normal`, surfaces, sun, sky and lamps
     /// together.
     [[nodiscard]] DirectSample irradiance(const vec3& point, const vec3& normal, const GatherSettings& settings) const;
+    /// What the surfaces alone send over a mirror.
+    [[nodiscard]] DirectSample irradiance(const MirrorSight& over, const GatherSettings& settings) const;
 
 private:
     struct Visibility {
@@ -32,7 +34,11 @@ private:
         float clear = 0.0F; ///< rays that were not blocked
         unsigned rays = 0;
     };
-    [[nodiscard]] Visibility visibility(std::uint32_t element, const SurfacePoint& receiver, unsigned count) const;
+    // With `over`, the receiver is its image.
+    [[nodiscard]] Visibility visibility(std::uint32_t element, const SurfacePoint& receiver, unsigned count,
+                                        const MirrorSight* over) const;
+    void add_surfaces(const SurfacePoint& p, const GatherSettings& settings, const MirrorSight* over,
+                      DirectSample& out) const;
 
     const Hierarchy& h_;
     const RayScene& rays_;

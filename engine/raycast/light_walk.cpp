@@ -82,6 +82,12 @@ float onward_share(const RayScene& rays, const Hit& hit, const vec3& direction) 
     return std::min(share, 1.0F);
 }
 
+Rgb mirror_reflectance(const RayScene& rays, const Hit& hit, const vec3& direction) {
+    float cover = 1.0F;
+    const SpecularPoint at = specular_point(rays, hit, direction, cover);
+    return sample_specular(at, direction, vec3(0.5F)).weight * cover;
+}
+
 bool bend_on(const RayScene& rays, const Hit& hit, LightWay& way, const vec3& u, WayOn& how) {
     const Material& m = rays.material(hit.surface);
     if (!is_specular(m) || !side_mirrors(rays, hit)) {

@@ -32,6 +32,9 @@ bool send_on(const RayScene& rays, const Hit& hit, LightWay& way, WayOn* how = n
 bool bend_on(const RayScene& rays, const Hit& hit, LightWay& way, const vec3& u, WayOn& how);
 inline constexpr float kRouletteBelow = 0.05F;
 
+/// Share of light along `direction` that a smooth mirror sends on from a hit: Schlick's with the colour there.
+Rgb mirror_reflectance(const RayScene& rays, const Hit& hit, const vec3& direction);
+
 /// Share of light along `direction` that send_on() sends on from a hit, luminance, mean over chance.
 float onward_share(const RayScene& rays, const Hit& hit, const vec3& direction);
 

@@ -22,14 +22,6 @@ constexpr unsigned kOpaqueMask = 1; // stops light
 constexpr unsigned kFilterMask = 2; // clear panes, cut-outs, blended surfaces: some light goes through
 constexpr int kMaxCrossings = 64;   // panes and leaves in a row; beyond it the light is taken as absorbed
 
-// Ends of a visibility segment are pulled in by this, metres: below any wall's thickness, above float rounding at 100 m. In
-// larger models it grows with the distance from the origin as rounding does, or surfaces would shade themselves.
-constexpr float kEndOffset = 2e-4F;
-constexpr float kRelativeOffset = 5e-7F; // about four roundings
-float end_offset(const vec3& p) {
-    return std::max(kEndOffset, kRelativeOffset * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
-}
-
 bool lets_light_through(const Material& m) { return m.transmission > 0.0F || m.alpha_mode != Material::Alpha::Opaque; }
 
 // Light goes straight on through the glass itself, without its holes. Diffuse materials that let some light through are thin
@@ -394,6 +386,12 @@ struct RayScene::Impl {
     }
 };
 
+float shadow_offset(const vec3& p) {
+    constexpr float kEndOffset = 2e-4F;
+    constexpr float kRelativeOffset = 5e-7F; // about four roundings
+    return std::max(kEndOffset, kRelativeOffset * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
+}
+
 RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
     impl_->scene = scene;
     impl_->collect();
@@ -443,17 +441,17 @@ Rgb RayScene::transmittance(const vec3& from, const vec3& to) const {
         return Rgb(1.0F);
     }
     const float most = 0.1F * length;
-    return impl_->transmit(*this, from, d / length, std::min(end_offset(from), most),
-                           length - std::min(end_offset(to), most));
+    return impl_->transmit(*this, from, d / length, std::min(shadow_offset(from), most),
+                           length - std::min(shadow_offset(to), most));
 }
 
 Rgb RayScene::transmittance_to_infinity(const vec3& from, const vec3& direction) const {
-    return impl_->transmit(*this, from, direction, end_offset(from), std::numeric_limits<float>::infinity());
+    return impl_->transmit(*this, from, direction, shadow_offset(from), std::numeric_limits<float>::infinity());
 }
 
 void RayScene::look_at_sky(const vec3& from, std::span<const vec3> directions, std::span<SkyRay> out) const {
     ATRIUM_CHECK(directions.size() == out.size());
-    const float tnear = end_offset(from);
+    const float tnear = shadow_offset(from);
     for (std::size_t first = 0; first < directions.size(); first += 8) {
         const auto some = directions.subspan(first, std::min<std::size_t>(8, directions.size() - first));
         const unsigned blocked = impl_->blocked_of_8(from, some, tnear);

@@ -49,6 +49,10 @@ struct Hit {
     explicit operator bool() const { return surface != kNone; }
 };
 
+/// Ends of a visibility segment are pulled in by this, metres: below any wall's thickness, above float rounding at 100 m. In
+/// larger models it grows with the distance from the origin as rounding does, or surfaces would shade themselves.
+float shadow_offset(const vec3& p);
+
 /// What a ray without end meets.
 struct SkyRay {
     Rgb through{0.0F}; ///< share of light that arrives: see RayScene::transmittance()

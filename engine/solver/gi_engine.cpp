@@ -13,6 +13,7 @@
 #include "engine/radiosity/leaf_gather.h"
 #include "engine/radiosity/leaf_surroundings.h"
 #include "engine/radiosity/links.h"
+#include "engine/radiosity/mirror_light.h"
 #include "engine/radiosity/point_gather.h"
 #include "engine/raycast/ray_scene.h"
 #include "engine/raycast/scene_charts.h"
@@ -70,9 +71,10 @@ struct GiEngine::Impl {
     std::vector<SurfaceCharts> charts;
     DirectMaps maps; ///< direct light on charted surfaces
     Hierarchy hierarchy;
-    Hierarchy emitters;                  ///< the tree in which only named emitters shine; empty when there are none
-    std::unique_ptr<PointGather> lamps;  ///< named emitters alone
-    std::unique_ptr<PointGather> direct; ///< named emitters and `punctual` together
+    Hierarchy emitters;                   ///< the tree in which only named emitters shine; empty when there are none
+    std::unique_ptr<MirrorLight> mirrors; ///< null where there is no flat mirror, and where the paper's ways are asked for
+    std::unique_ptr<PointGather> lamps;   ///< named emitters alone
+    std::unique_ptr<PointGather> direct;  ///< named emitters and `punctual` together
     std::unique_ptr<IndirectGather> reflected;
     std::unique_ptr<SpecularTargets> targets; ///< null where nothing is specular or no light stands out
     std::unique_ptr<ParticleMap> particles;   ///< null where there are no targets
@@ -94,6 +96,9 @@ struct GiEngine::Impl {
             parts.push_back(
                 DirectPart{[&](const vec3& p, const vec3& n) { return lamps->irradiance(p, n, settings); }, false});
         }
+        if (mirrors && (!punctual->lights().empty() || !emitters.empty())) {
+            parts.push_back(DirectPart{[&](const vec3& p, const vec3& n) { return over_mirrors(p, n, settings); }, false});
+        }
         if (punctual->has_sky()) {
             parts.push_back(DirectPart{
                 [&](const vec3& p, const vec3& n) { return punctual->sky_irradiance(p, n, settings.sky_rays); }, true});
@@ -101,7 +106,17 @@ struct GiEngine::Impl {
         return parts;
     }
     [[nodiscard]] DirectSample direct_light(const vec3& point, const vec3& normal, const GatherSettings& settings) const {
-        return direct->irradiance(point, normal, settings);
+        DirectSample out = direct->irradiance(point, normal, settings);
+        if (mirrors) {
+            const DirectSample over = over_mirrors(point, normal, settings);
+            out.irradiance += over.irradiance;
+            out.variance += over.variance;
+        }
+        return out;
+    }
+    // Direct light by mirror images in flat mirrors.
+    [[nodiscard]] DirectSample over_mirrors(const vec3& point, const vec3& normal, const GatherSettings& settings) const {
+        return mirrors->irradiance(point, normal, settings, punctual.get(), lamps.get());
     }
 
     // Direct light at a point of a charted surface, from its map.
@@ -305,7 +320,8 @@ struct GiEngine::Impl {
         ParticleSettings settings;
         settings.particles = count;
         settings.seed = seed;
-        particles = std::make_unique<ParticleMap>(*rays, *targets, *punctual, emitters, CarriedByImage{}, settings, context);
+        const auto by_image = [this](const Hit& hit) { return mirrors && mirrors->carries(hit); };
+        particles = std::make_unique<ParticleMap>(*rays, *targets, *punctual, emitters, by_image, settings, context);
         return particles->complete();
     }
 
@@ -463,6 +479,11 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     context.progress("ray_scene", 0.0);
     s.rays = std::make_unique<RayScene>(scene);
     s.punctual = std::make_unique<DirectLight>(scene, *s.rays, context);
+    // The paper follows light over mirrors by particles alone.
+    s.mirrors = options.paper_mode ? nullptr : std::make_unique<MirrorLight>(*s.rays);
+    if (s.mirrors && s.mirrors->empty()) {
+        s.mirrors.reset();
+    }
     statistics.triangles = s.rays->triangle_count();
     QualitySettings quality = quality_settings(options.quality, s.rays->bounds().diagonal(), options.target_error);
     quality.caustics.paper = options.paper_mode;
@@ -561,7 +582,8 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         timer.next("layers");
         s.reflected = std::make_unique<IndirectGather>(
             s.hierarchy, *s.rays, bright_leaves(s.hierarchy, s.hierarchy.room, quality.bright_contrast),
-            [&s](const Hit& hit, Rgb& light) { return s.mapped_light(hit, light); }, scene.environment.sky_radiance);
+            [&s](const Hit& hit, Rgb& light) { return s.mapped_light(hit, light); }, scene.environment.sky_radiance,
+            s.mirrors.get());
         CacheSettings cache_settings = field.cache;
         cache_settings.light_floor = light_floor;
         IrradianceCache cache(
