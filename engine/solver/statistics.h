@@ -9,6 +9,17 @@
 
 namespace atrium {
 
+/// What it took to bring the light up to date after edits. All of it is zero for a solve from scratch.
+struct UpdateStatistics {
+    bool degraded = false;              ///< made in a hurry during a gesture; a full update follows
+    std::uint64_t particles_traced = 0; ///< those that had to be sent again
+    double particles_share = 0;         ///< of all particles of the scene, 0 to 1
+    std::uint64_t links_visited = 0;    ///< looked at to find what the edit touches
+    std::uint64_t links_changed = 0;    ///< computed again, made or removed
+    std::uint64_t octree_bytes = 0;     ///< of the tree that tells which particles pass where
+    friend bool operator==(const UpdateStatistics&, const UpdateStatistics&) = default;
+};
+
 /// Times in seconds of wall clock, sizes in bytes. What was not used is zero.
 struct Statistics {
     struct Phase {
@@ -42,6 +53,7 @@ struct Statistics {
     struct {
         double emitted = 0, absorbed = 0, escaped = 0, defect = 0; ///< lumen; defect = 1 - (absorbed + escaped) / emitted
     } energy;
+    UpdateStatistics update; ///< not kept in project files: it is about a run, not about the light
 };
 
 /// Highest resident set of this process so far, bytes.
