@@ -1,10 +1,6 @@
 #include "ui/document/document.h"
 
-#include "ui/document/edit_tools.h"
-
 #include <QUndoCommand>
-
-#include <algorithm>
 
 namespace atrium::ui {
 
@@ -45,8 +41,7 @@ Document::~Document() = default;
 
 void Document::reset(Scene scene, const QString& path, std::vector<Problem> problems) {
     gesture_depth_ = 0;
-    gesture_done_.clear();
-    gesture_inverse_.clear();
+    gesture_ = {};
     selection_.clear();
     scene_ = std::move(scene);
     path_ = path;
@@ -75,33 +70,8 @@ Result<void> Document::apply(const SceneEdit& edit, const QString& text) {
         undo_.push(new EditCommand(*this, edit, std::move(*inverse), text));
         return {};
     }
-    // A group whose inverse has the same parts in reverse is kept part by part, so that dragging several objects merges too.
-    const auto* group = std::get_if<EditGroup>(&edit.value);
-    const auto* undo_group = std::get_if<EditGroup>(&inverse->value);
-    if (group != nullptr && undo_group != nullptr && group->edits.size() == undo_group->edits.size()) {
-        for (std::size_t i = 0; i < group->edits.size(); ++i) {
-            absorb(group->edits[i], undo_group->edits[group->edits.size() - 1 - i]);
-        }
-    } else {
-        absorb(edit, *inverse);
-    }
+    gesture_.absorb(edit, *inverse);
     return {};
-}
-
-void Document::absorb(const SceneEdit& edit, const SceneEdit& inverse) {
-    if (replaces_value(edit)) {
-        for (std::size_t i = gesture_done_.size(); i-- > 0;) {
-            if (supersedes(edit, gesture_done_[i])) {
-                gesture_done_[i] = edit; // its inverse already leads back to the start of the gesture
-                return;
-            }
-            if (!replaces_value(gesture_done_[i])) {
-                break; // never move an edit across one that makes or removes what it refers to
-            }
-        }
-    }
-    gesture_done_.push_back(edit);
-    gesture_inverse_.push_back(inverse);
 }
 
 void Document::begin_gesture(const QString& text) {
@@ -114,15 +84,10 @@ void Document::commit_gesture() {
     if (gesture_depth_ == 0 || --gesture_depth_ > 0) {
         return;
     }
-    std::vector<SceneEdit> inverse(gesture_inverse_.rbegin(), gesture_inverse_.rend());
-    std::vector<SceneEdit> forward = std::move(gesture_done_);
-    gesture_done_.clear();
-    gesture_inverse_.clear();
+    UndoEntry entry = gesture_.take();
     // When every inverse is what the scene already holds, the gesture ended where it began.
-    const bool null =
-        std::all_of(inverse.begin(), inverse.end(), [this](const SceneEdit& edit) { return changes_nothing(scene_, edit); });
-    if (!null) {
-        undo_.push(new EditCommand(*this, as_one(std::move(forward)), as_one(std::move(inverse)), gesture_text_));
+    if (!changes_nothing(scene_, entry.inverse)) {
+        undo_.push(new EditCommand(*this, std::move(entry.forward), std::move(entry.inverse), gesture_text_));
     }
     Q_EMIT gesture_finished();
 }
@@ -132,14 +97,9 @@ void Document::cancel_gesture() {
         return;
     }
     --gesture_depth_;
-    std::vector<SceneEdit> inverse(gesture_inverse_.rbegin(), gesture_inverse_.rend());
-    gesture_done_.clear();
-    gesture_inverse_.clear();
-    if (!inverse.empty()) {
-        const SceneEdit back = as_one(std::move(inverse));
-        if (!changes_nothing(scene_, back)) {
-            (void)apply_now(back); // restores values that were there before: nothing in it can be refused
-        }
+    const SceneEdit back = gesture_.take().inverse;
+    if (!changes_nothing(scene_, back)) {
+        (void)apply_now(back); // restores values that were there before: nothing in it can be refused
     }
     if (gesture_depth_ == 0) {
         Q_EMIT gesture_finished();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/base/result.h"
+#include "engine/scene/edit_tools.h"
 #include "engine/scene/problems.h"
 #include "engine/scene/scene_edit.h"
 #include "ui/document/selection.h"
@@ -57,7 +58,6 @@ private:
     friend class EditCommand;
     Result<SceneEdit>
     apply_now(const SceneEdit& edit); ///< applies, raises the revision, emits edited(); returns the inverse
-    void absorb(const SceneEdit& edit, const SceneEdit& inverse); ///< into the open gesture
 
     Scene scene_;
     std::uint64_t revision_ = 1;
@@ -67,8 +67,7 @@ private:
     std::vector<Problem> problems_;
     int gesture_depth_ = 0;
     QString gesture_text_;
-    std::vector<SceneEdit> gesture_done_;    ///< edits of the open gesture, merged where supersedes() allows
-    std::vector<SceneEdit> gesture_inverse_; ///< their inverses in order of application
+    GestureEdits gesture_; ///< edits of the open gesture
 };
 
 } // namespace atrium::ui

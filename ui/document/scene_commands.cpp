@@ -1,6 +1,6 @@
 #include "ui/document/scene_commands.h"
 
-#include "ui/document/edit_tools.h"
+#include "engine/scene/edit_tools.h"
 
 #include <algorithm>
 #include <unordered_map>

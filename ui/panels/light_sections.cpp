@@ -1,6 +1,6 @@
 #include "ui/panels/light_sections.h"
 
-#include "ui/document/edit_tools.h"
+#include "engine/scene/edit_tools.h"
 
 #include <QPushButton>
 

@@ -1,6 +1,6 @@
 #include "ui/panels/material_section.h"
 
-#include "ui/document/edit_tools.h"
+#include "engine/scene/edit_tools.h"
 #include "ui/document/scene_commands.h"
 #include "ui/panels/color_button.h"
 #include "ui/panels/quiet_combo.h"

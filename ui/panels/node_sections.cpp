@@ -1,6 +1,6 @@
 #include "ui/panels/node_sections.h"
 
-#include "ui/document/edit_tools.h"
+#include "engine/scene/edit_tools.h"
 #include "ui/document/scene_commands.h"
 
 #include <QLabel>

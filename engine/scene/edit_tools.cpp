@@ -1,9 +1,10 @@
-#include "ui/document/edit_tools.h"
+#include "engine/scene/edit_tools.h"
 
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 
-namespace atrium::ui {
+namespace atrium {
 
 namespace {
 
@@ -75,4 +76,38 @@ SceneEdit as_one(std::vector<SceneEdit> edits) {
     return SceneEdit{EditGroup{std::move(edits)}};
 }
 
-} // namespace atrium::ui
+void GestureEdits::absorb(const SceneEdit& edit, const SceneEdit& inverse) {
+    // A group whose inverse has the same parts in reverse is kept part by part, so that dragging several objects merges too.
+    const auto* group = std::get_if<EditGroup>(&edit.value);
+    const auto* undo_group = std::get_if<EditGroup>(&inverse.value);
+    if (group != nullptr && undo_group != nullptr && group->edits.size() == undo_group->edits.size()) {
+        for (std::size_t i = 0; i < group->edits.size(); ++i) {
+            absorb_one(group->edits[i], undo_group->edits[group->edits.size() - 1 - i]);
+        }
+    } else {
+        absorb_one(edit, inverse);
+    }
+}
+
+void GestureEdits::absorb_one(const SceneEdit& edit, const SceneEdit& inverse) {
+    if (replaces_value(edit)) {
+        for (std::size_t i = done_.size(); i-- > 0;) {
+            if (supersedes(edit, done_[i])) {
+                done_[i] = edit; // its inverse already leads back to the start of the gesture
+                return;
+            }
+            if (!replaces_value(done_[i])) {
+                break; // never move an edit across one that makes or removes what it refers to
+            }
+        }
+    }
+    done_.push_back(edit);
+    inverse_.push_back(inverse);
+}
+
+UndoEntry GestureEdits::take() {
+    std::reverse(inverse_.begin(), inverse_.end());
+    return {as_one(std::exchange(done_, {})), as_one(std::exchange(inverse_, {}))};
+}
+
+} // namespace atrium
