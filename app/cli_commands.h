@@ -12,6 +12,7 @@ void add_check(CLI::App& app, int& status);
 void add_solve(CLI::App& app, int& status);
 void add_measure(CLI::App& app, int& status);
 void add_render(CLI::App& app, int& status);
+void add_edit(CLI::App& app, int& status);
 void add_reference(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_inspect(CLI::App& app, int& status);

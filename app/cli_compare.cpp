@@ -3,6 +3,7 @@
 #include "app/cli_points.h"
 #include "app/cli_support.h"
 #include "engine/measure/compare.h"
+#include "engine/measure/light_difference.h"
 #include "engine/solver/gi_engine.h"
 #include "engine/view/tone.h"
 
@@ -162,60 +163,21 @@ Result<Project> read_project(const std::string& path) {
     return Project{std::move(loaded->scene), *solution};
 }
 
-/// Points spread evenly over the area of all surfaces: centroids of the triangles met at equal steps of summed area.
-std::vector<SensorPoint> spread_points(const Project& project, std::size_t count) {
-    struct Face {
-        SensorPoint point;
-        double summed_area;
-    };
-    std::vector<Face> faces;
-    double area = 0;
-    for (const auto& surface : project.solution->surfaces) {
-        const dmat4 to_world = project.scene.world_matrix(surface->node);
-        const DisplayMesh& mesh = *surface->mesh;
-        const bool flipped = glm::determinant(dmat3(to_world)) < 0.0;
-        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-            dvec3 p[3];
-            for (std::size_t k = 0; k < 3; ++k) {
-                p[k] = dvec3(to_world * dvec4(dvec3(mesh.positions[mesh.indices[i + k]]), 1.0));
-            }
-            const dvec3 cross = glm::cross(p[1] - p[0], p[2] - p[0]) * (flipped ? -1.0 : 1.0);
-            const double twice = glm::length(cross);
-            if (!(twice > 0.0)) {
-                continue;
-            }
-            area += twice / 2.0;
-            SensorPoint point;
-            point.position = (p[0] + p[1] + p[2]) / 3.0;
-            point.normal = cross / twice;
-            faces.push_back({point, area});
-        }
-    }
-    std::vector<SensorPoint> out;
-    for (std::size_t i = 0, face = 0; i < count && !faces.empty(); ++i) {
-        const double at = area * (double(i) + 0.5) / double(count);
-        while (face + 1 < faces.size() && faces[face].summed_area < at) {
-            ++face;
-        }
-        out.push_back(faces[face].point);
-    }
-    return out;
-}
-
 Result<Comparison> compare_projects(const Arguments& a) {
     auto first = read_project(a.a);
     auto second = first ? read_project(a.b) : tl::unexpected(first.error());
     if (!second) {
         return tl::unexpected(second.error());
     }
+    const std::vector<SensorPlace> places = spread_places(second->scene, *second->solution, 2000);
+    const std::vector<SensorReading> ours = read_surfaces(first->scene, *first->solution, places);
+    const std::vector<SensorReading> theirs = read_surfaces(second->scene, *second->solution, places);
     std::vector<double> va;
     std::vector<double> vb;
-    for (const SensorPoint& point : spread_points(*second, 2000)) {
-        const SensorReading p = read_surface(first->scene, *first->solution, point.position, point.normal);
-        const SensorReading q = read_surface(second->scene, *second->solution, point.position, point.normal);
-        if (p.on_surface && q.on_surface) {
-            va.push_back(double(luminance(p.irradiance)));
-            vb.push_back(double(luminance(q.irradiance)));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (ours[i].on_surface && theirs[i].on_surface) {
+            va.push_back(double(luminance(ours[i].irradiance)));
+            vb.push_back(double(luminance(theirs[i].irradiance)));
         }
     }
     if (va.empty()) {

@@ -19,15 +19,6 @@ const std::map<std::string, SolverSettings::Quality> kQualities = {{"draft", Sol
                                                                    {"normal", SolverSettings::Quality::Normal},
                                                                    {"fine", SolverSettings::Quality::Fine}};
 
-SolveOptions options_for(const Scene& scene, const SolveArguments& arguments) {
-    SolveOptions options;
-    options.quality = arguments.quality ? kQualities.at(*arguments.quality) : scene.settings.quality;
-    options.seed = arguments.seed.value_or(scene.settings.seed);
-    options.paper_mode = arguments.mode == "paper";
-    options.target_error = arguments.error.value_or(0.0);
-    return options;
-}
-
 /// Whether the light stored in a project answers what the command line asks for.
 bool good_enough(const Solution& stored, const SolveArguments& arguments) {
     if (arguments.quality && !stored.final) {
@@ -47,6 +38,24 @@ bool good_enough(const Solution& stored, const SolveArguments& arguments) {
 }
 
 } // namespace
+
+void set_options(SolveOptions& options, const Scene& scene, const SolveArguments& arguments) {
+    options.quality = arguments.quality ? kQualities.at(*arguments.quality) : scene.settings.quality;
+    options.seed = arguments.seed.value_or(scene.settings.seed);
+    options.paper_mode = arguments.mode == "paper";
+    options.target_error = arguments.error.value_or(0.0);
+}
+
+RunContext context_for(const SolveArguments& arguments) {
+    RunContext context;
+    context.stop = new_stop_flag();
+    context.on_progress = progress_reporter(arguments.progress);
+    if (arguments.time) {
+        context.deadline = program_start() + std::chrono::duration_cast<RunContext::Clock::duration>(
+                                                 std::chrono::duration<double>(*arguments.time));
+    }
+    return context;
+}
 
 void add_solve_options(CLI::App& command, SolveArguments& a) {
     const std::string group = "Solve options";
@@ -117,18 +126,14 @@ int light_up(Solved& solved, const SolveArguments& arguments, bool need_engine, 
     if (solved.from_file && !need_engine) {
         return kDone;
     }
-    RunContext context;
-    context.stop = new_stop_flag();
-    context.on_progress = progress_reporter(arguments.progress);
-    if (arguments.time) {
-        context.deadline = program_start() + std::chrono::duration_cast<RunContext::Clock::duration>(
-                                                 std::chrono::duration<double>(*arguments.time));
-    }
+    const RunContext context = context_for(arguments);
     std::function<void(std::shared_ptr<const Solution>)> on_snapshot;
     if (watcher) {
         on_snapshot = [&watcher](const std::shared_ptr<const Solution>& s) { watcher(s, seconds_since_start()); };
     }
-    auto result = solved.engine.solve(solved.scene, options_for(solved.scene, arguments), context, on_snapshot);
+    SolveOptions options;
+    set_options(options, solved.scene, arguments);
+    auto result = solved.engine.solve(solved.scene, options, context, on_snapshot);
     finish_progress();
     if (!result) {
         Error error = result.error();

@@ -28,6 +28,11 @@ struct SolveArguments {
 };
 void add_solve_options(CLI::App& command, SolveArguments& arguments);
 
+/// Puts what the arguments and the project wish into `options`; what else is in them stays.
+void set_options(SolveOptions& options, const Scene& scene, const SolveArguments& arguments);
+/// Stop flag raised by signals, time limit and progress of the job that starts now.
+RunContext context_for(const SolveArguments& arguments);
+
 /// A file with its light.
 struct Solved {
     std::string file;

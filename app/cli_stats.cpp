@@ -123,7 +123,7 @@ Json caustic_records_json(const Scene& scene, const Solution& solution) {
     return out;
 }
 
-std::string statistics_json(const Solved& solved) {
+Json statistics_object(const Solved& solved) {
     Statistics s;
     if (solved.solution) {
         s = solved.solution->statistics;
@@ -171,7 +171,11 @@ std::string statistics_json(const Solved& solved) {
                      {"defect", s.energy.defect}};
     out["stopped"] = solved.stopped;
     out["solution_reused"] = solved.from_file;
-    return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return out;
 }
+
+std::string as_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+std::string statistics_json(const Solved& solved) { return as_text(statistics_object(solved)); }
 
 } // namespace atrium::cli

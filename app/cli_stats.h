@@ -34,7 +34,11 @@ std::string surface_name(const Scene& scene, NodeId node);
 /// What was decided about every chart that caustic light falls on.
 nlohmann::ordered_json caustic_records_json(const Scene& scene, const Solution& solution);
 
-/// The whole object of `--stats`, indented, with a final newline.
+/// The object of `--stats`.
+nlohmann::ordered_json statistics_object(const Solved& solved);
+/// JSON as files hold it: indented, with a final newline.
+std::string as_text(const nlohmann::ordered_json& json);
+/// The whole object of `--stats` as text.
 std::string statistics_json(const Solved& solved);
 
 } // namespace atrium::cli

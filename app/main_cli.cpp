@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
         add_solve(app, status);
         add_measure(app, status);
         add_render(app, status);
+        add_edit(app, status);
         add_reference(app, status);
         add_compare(app, status);
         add_inspect(app, status);

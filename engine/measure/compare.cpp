@@ -54,6 +54,7 @@ Difference difference(std::span<const double> values, std::span<const double> re
     out.mean_relative_bias = ratio(mean_value - mean, std::abs(mean));
     out.p95 = percentile(relative, 0.95);
     out.p99 = percentile(relative, 0.99);
+    out.max = percentile(relative, 1.0);
     return out;
 }
 

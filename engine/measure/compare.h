@@ -16,6 +16,7 @@ struct Difference {
     double mean_relative_bias = 0; ///< (mean a - mean b) / mean b
     double p95 = 0;                ///< 95th percentile of |a - b| / (|b| + eps)
     double p99 = 0;
+    double max = 0; ///< largest of the same
 };
 /// Both of the same length. A reference that is zero throughout gives zero where `values` is too and infinity elsewhere.
 Difference difference(std::span<const double> values, std::span<const double> reference);
