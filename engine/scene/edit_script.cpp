@@ -179,6 +179,8 @@ Result<SceneEdit> ScriptedScene::edit_for(const ScriptAdd& e) const {
         Material plain;
         plain.name = e.shape.name;
         plain.base_color = Rgb(0.7F);
+        plain.double_sided =
+            std::holds_alternative<Polygon>(e.shape.geometry) || std::holds_alternative<Disc>(e.shape.geometry);
         node.materials.push_back(scene_.materials.next_key());
         edits.push_back(SceneEdit{AddResource<Material>{node.materials[0], std::move(plain)}});
     } else {

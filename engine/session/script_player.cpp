@@ -94,16 +94,15 @@ struct ScriptPlayer::Impl {
     // ---- the caller's thread ----
 
     void post(const std::optional<SceneEdit>& edit, bool in_gesture) {
-        revision += edit ? 1 : 0; // else the scene was so already, and its light may be, too
+        revision += edit ? 1 : 0; // else the scene was so already
         {
             const std::lock_guard lock(mutex);
             frames.push_back({revision, edit.has_value(), Clock::now(), {}});
         }
         if (edit) {
             session.post(*edit, revision, in_gesture);
-        } else {
-            answer_frames();
         }
+        answer_frames(); // light that need not change is there already
     }
 
     /// Until `done`, or until it is time to stop: then false, and nothing runs any more.
@@ -208,17 +207,19 @@ struct ScriptPlayer::Impl {
         const std::uint64_t before = revision;
         Result<bool> going = true;
         bool waits = true;
+        Clock::time_point let_go;
         if (const auto* wanted = std::get_if<ScriptDrag>(&edit.value)) {
             going = drag(*wanted);
             waits = wanted->settle;
+            let_go = Clock::now();
         } else {
             const auto applied = stage.apply(edit);
             if (!applied) {
                 return tl::unexpected(applied.error());
             }
+            let_go = Clock::now();
             post(*applied, false);
         }
-        const auto let_go = Clock::now();
         if (going) {
             const bool finished = *going;
             going = waits ? settle() : all_shown();

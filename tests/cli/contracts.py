@@ -31,7 +31,7 @@ class Requests(CliTest):
     def test_help_and_version(self):
         self.assertIn("solve", self.run_cli("--help").stdout)
         self.assertRegex(self.run_cli("--version").stdout, r"^atrium-cli \d+\.\d+\.\d+\n$")
-        for name in ("info", "check", "solve", "measure", "render", "reference", "compare", "convert"):
+        for name in ("info", "check", "solve", "measure", "render", "edit", "reference", "compare", "convert"):
             self.assertIn("FILE" if name not in ("compare", "convert") else name, self.run_cli(name, "--help").stdout)
 
     def test_wrong_requests(self):
@@ -50,6 +50,9 @@ class Requests(CliTest):
     def test_missing_file_is_named(self):
         for command in ("info", "check", "solve"):
             self.refused(command, self.path("nowhere.glb"), says=["nowhere.glb"])
+        script = self.write("e.json", '{"edits": []}')
+        self.refused("edit", self.path("nowhere.glb"), "--script", script, says=["nowhere.glb"])
+        self.refused("edit", self.room, "--script", self.path("nowhere.json"), says=["nowhere.json"])
 
 
 class InfoAndCheck(CliTest):
@@ -94,16 +97,6 @@ class InfoAndCheck(CliTest):
 
 
 class Solve(CliTest):
-    def compare_keys(self, value, expected, where="statistics"):
-        for name, kind in expected.items():
-            self.assertIn(name, value, where)
-            if isinstance(kind, dict):
-                self.compare_keys(value[name], kind, where + "." + name)
-            else:
-                kinds = (int, float) if kind is float else (kind,)
-                self.assertIsInstance(value[name], kinds, where + "." + name)
-                self.assertFalse(kind is int and isinstance(value[name], bool), where + "." + name)
-
     def test_statistics_and_silence(self):
         done = self.run_cli("solve", self.room, "--stats", self.path("s.json"), "--quality", "draft", "--seed", "7", "--threads", "2")
         self.assertEqual((done.stdout, done.stderr), ("", ""))
@@ -339,6 +332,124 @@ class Render(CliTest):
         self.refused("render", self.room, "-o", self.path("a.png"), "--camera", "9")
         for size in ("64", "64x", "0x64", "64x-1", "64x48x2", "99999x10", "axb"):
             self.refused("render", self.room, "-o", self.path("a.png"), "--size=" + size, says=[size])
+
+
+class Edit(CliTest):
+    # After any edits the light is that of a fresh solve of the same scene and seed, within this share of the mean.
+    SAME = 0.02
+    SCRIPT = [
+        {"kind": "add", "shape": "box", "name": "Crate", "size": [0.6, 0.6, 0.6], "translation": [1, 0.3, 1], "material": "Paint"},
+        {"kind": "drag", "node": "Crate", "positions": [[1 + 0.1 * i, 0.3, 1.2] for i in range(8)], "interval_ms": 10},
+        {"kind": "move", "node": "Crate", "translation": [1.5, 0.31, 2], "rotation": [0, 0.6, 0, 0.8], "scale": [1, 1, 0.5]},
+        {"kind": "material", "material": "Paint", "baseColor": [0.6, 0.3, 0.3], "roughness": 0.9},
+        {"kind": "light", "node": "Lamp", "intensity": 500.0, "color": [1, 0.9, 0.8]},
+        {"kind": "delete", "node": "Crate"}, {"kind": "undo"}, {"kind": "redo"}]
+    FRAME = {"latency": float, "degraded": bool, "particles_traced": int, "links_changed": int}
+    FIGURES = {"kind": str, "node": str, "frames": list, "settle": float, "particles_traced": int, "particles_share": float,
+               "links_visited": int, "links_changed": int, "octree_bytes": int,
+               "verify": {"fresh_seconds": float, "rel_rms": float, "rel_max": float, "energy_rel": float}}
+
+    def script(self, edits, name="edits.json"):
+        return self.write(name, json.dumps({"edits": edits}))
+
+    def test_every_kind(self):
+        done = self.run_cli("edit", self.room, "--script", self.script(self.SCRIPT), "--verify", "--quality", "draft",
+                            "--stats", self.path("s.json"), "-o", self.path("out.atrium"))
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(len(done.stdout.splitlines()), 1 + len(self.SCRIPT))
+        stats = json.loads(self.read("s.json"))
+        self.compare_keys(stats, STATISTICS)
+        self.assertFalse(stats["stopped"])
+        edits = stats["edits"]
+        self.assertEqual([e["kind"] for e in edits], [e["kind"] for e in self.SCRIPT])
+        self.assertEqual([e["node"] for e in edits],
+                         ["Crate", "Crate", "Crate", "Paint", "Lamp", "Crate", "Crate", "Crate"])
+        for edit in edits:
+            self.compare_keys(edit, self.FIGURES, edit["kind"])
+            self.assertEqual(len(edit["frames"]), 8 if edit["kind"] == "drag" else 1)
+            for frame in edit["frames"]:
+                self.compare_keys(frame, self.FRAME, edit["kind"])
+                self.assertLess(frame["latency"], 20)
+            self.assertLess(edit["verify"]["rel_rms"], self.SAME, edit)
+            self.assertLess(edit["verify"]["energy_rel"], self.SAME, edit)
+            self.assertGreaterEqual(edit["verify"]["points"], 2000)
+            self.assertGreater(edit["verify"]["fresh_seconds"], 0)
+        # The project is the edited scene with its light: the crate is gone, the lamp is dimmer, nothing needs solving.
+        facts = json.loads(self.run_cli("info", self.path("out.atrium"), "--json").stdout)
+        self.assertEqual((facts["scene"]["nodes"], facts["has_solution"]), (4, True))
+        self.run_cli("solve", self.path("out.atrium"), "--stats", self.path("t.json"))
+        again = json.loads(self.read("t.json"))
+        self.assertTrue(again["solution_reused"])
+        self.assertLess(again["energy"]["emitted"], 0.5 * 3141.59)
+
+    def test_undo_leads_back_to_the_light_before(self):
+        self.run_cli("solve", self.room, "--quality", "draft", "-o", self.path("before.atrium"))
+        back = [e for edit in self.SCRIPT[3:5] for e in (edit, {"kind": "undo"})] + [
+            {"kind": "drag", "node": "Lamp", "positions": [[0.1 * i, 0, 0] for i in range(1, 6)]}, {"kind": "undo"}]
+        self.run_cli("edit", self.path("before.atrium"), "--script", self.script(back), "--quality", "draft",
+                     "-o", self.path("after.atrium"))
+        figures = json.loads(self.run_cli("compare", self.path("after.atrium"), self.path("before.atrium"), "--json").stdout)
+        self.assertGreaterEqual(figures["values"], 1900)
+        self.assertLess(figures["relRMSE"], self.SAME)
+        self.run_cli("edit", self.path("before.atrium"), "--script", self.script(back[:1]), "--quality", "draft",
+                     "-o", self.path("after.atrium"))
+        figures = json.loads(self.run_cli("compare", self.path("after.atrium"), self.path("before.atrium"), "--json").stdout)
+        self.assertGreater(figures["relRMSE"], 0.1, "the comparison would see an edit")
+
+    def test_statistics_to_standard_output(self):
+        done = self.run_cli("edit", self.room, "--script", self.script([]), "--verify", "--quality", "draft", "--stats", "-")
+        self.assertEqual(json.loads(done.stdout)["edits"], [])
+        done = self.run_cli("edit", self.room, "--script", self.script([{"kind": "move", "node": "#2", "scale": [2, 2, 2]}]),
+                            "--quality", "draft")
+        self.assertEqual((done.stdout, done.stderr), ("", ""))
+
+    def test_a_drag_that_is_not_waited_for(self):
+        edits = [{"kind": "drag", "node": "Lamp", "positions": [[0.2, 0, 0], [0.4, 0, 0]], "settle": False}, {"kind": "undo"}]
+        self.run_cli("edit", self.room, "--script", self.script(edits), "--verify", "--quality", "draft",
+                     "--stats", self.path("s.json"))
+        first, second = json.loads(self.read("s.json"))["edits"]
+        self.assertEqual((first["settle"], first["verify"]), (None, None))
+        self.assertTrue(all(f["latency"] >= 0 for f in first["frames"]))
+        self.assertLess(second["verify"]["rel_rms"], self.SAME)
+
+    def test_wrong_scripts(self):
+        start = time.monotonic()
+        for edits, says in (([{"kind": "undo"}], ["edits/0 (undo)", "nothing to undo"]),
+                            ([self.SCRIPT[0], {"kind": "drag", "node": "Crete", "positions": [[0, 0, 0]]}],
+                             ["edits/1 (drag Crete)", "no node named 'Crete'"]),
+                            ([{"kind": "delete", "node": "#9"}], ["edits/0 (delete #9)", "only 4"]),
+                            ([{"kind": "light", "node": "Walls", "intensity": 3}], ["no light"]),
+                            ([{"kind": "material", "material": "Paint"}], ["edits/0 (material)", "baseColor"]),
+                            ([{"kind": "jump"}], ["edits/0", "jump", "drag"])):
+            self.refused("edit", self.room, "--script", self.script(edits), "-o", self.path("no.atrium"),
+                         says=["edits.json", *says])
+            self.assertFalse(os.path.exists(self.path("no.atrium")))
+        self.refused("edit", self.room, "--script", self.write("edits.json", "{"), says=["edits.json", "not JSON"])
+        self.refused("edit", self.room, says=["--script"])
+        self.refused("edit", self.room, "--script", self.script([]), "-o", self.path("a.glb"), says=[".atrium"])
+        self.assertLess(time.monotonic() - start, 20, "found before anything is solved")
+
+    def test_stopping(self):
+        edits = [{"kind": "drag", "node": "Lamp", "positions": [[0.001 * i, 0, 0] for i in range(20000)]}]
+        process = subprocess.Popen([CLI, "edit", self.room, "--script", self.script(edits), "--quality", "draft",
+                                    "--stats", self.path("s.json"), "-o", self.path("out.atrium")],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        time.sleep(3.0)
+        process.send_signal(signal.SIGINT)
+        _, message = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 2, message)
+        self.assertIn(b"stopped by a signal after 0 of 1 edits", message)
+        stats = json.loads(self.read("s.json"))
+        self.assertTrue(stats["stopped"])
+        self.assertIsNone(stats["edits"][0]["settle"])
+        self.assertLess(len(stats["edits"][0]["frames"]), 20000)
+        self.assertEqual(json.loads(self.run_cli("info", self.path("out.atrium"), "--json").stdout)["scene"]["nodes"], 4)
+        done = self.run_cli("edit", self.room, "--script", self.script(edits), "--quality", "draft", "--time", "2",
+                            "--stats", self.path("s.json"), status=2)
+        self.assertIn("stopped at the time limit", done.stderr)
+        self.assertLess(json.loads(self.read("s.json"))["time"]["total"], 30)
+        self.run_cli("edit", self.room, "--script", self.script(edits), "--time", "0.001", "--stats", self.path("s.json"), status=2)
+        self.assertEqual(json.loads(self.read("s.json"))["edits"], [])
 
 
 class Reference(CliTest):

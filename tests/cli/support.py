@@ -125,3 +125,14 @@ class CliTest(unittest.TestCase):
         lines = text.splitlines()
         names = lines[0].split(",")
         return [dict(zip(names, (float(v) for v in line.split(",")))) for line in lines[1:]]
+
+    def compare_keys(self, value, expected, where="statistics"):
+        """Checks that a JSON object has the members of `expected`, of their types."""
+        for name, kind in expected.items():
+            self.assertIn(name, value, where)
+            if isinstance(kind, dict):
+                self.compare_keys(value[name], kind, where + "." + name)
+            else:
+                kinds = (int, float) if kind is float else (kind,)
+                self.assertIsInstance(value[name], kinds, where + "." + name)
+                self.assertFalse(kind is int and isinstance(value[name], bool), where + "." + name)

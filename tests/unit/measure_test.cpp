@@ -39,6 +39,7 @@ TEST(Difference, PercentilesPickTheRightRank) {
     const Difference d = difference(values, reference);
     EXPECT_NEAR(d.p95, 0.94, 1e-9);
     EXPECT_NEAR(d.p99, 0.98, 1e-9);
+    EXPECT_NEAR(d.max, 0.99, 1e-9);
 }
 
 TEST(Difference, ADarkReferenceIsNotDividedByZero) {
