@@ -40,31 +40,74 @@ struct ErrorSum {
     }
 };
 
-class DirectMapBuild {
-public:
-    DirectMapBuild(const RayScene& rays, std::span<const SurfaceCharts> charts,
-                   const std::function<bool(std::uint32_t)>& back_lit, const DirectMapSettings& settings,
-                   const RunContext& context)
-        : charts_(charts), sheets_(rays, charts, back_lit, context), settings_(settings), context_(context),
-          budget_(settings.max_samples) {
+} // namespace
+
+struct LiveDirectMaps::Impl {
+    Impl(const RayScene& rays, std::span<const SurfaceCharts> charts, std::vector<DirectPart> lights,
+         const std::function<bool(std::uint32_t)>& back_lit, const DirectMapSettings& settings, const RunContext& context)
+        : charts_(charts), lights_(std::move(lights)), sheets_(rays, charts, back_lit, context), settings_(settings),
+          context_(&context), budget_(settings.max_samples) {
         for (const LightSheet& s : sheets_.sheets()) {
+            const Chart& c = *s.chart;
+            places_.push_back({std::uint32_t(places_.size()), c.tile_u, c.tile_v, c.tiles_u, c.tiles_v});
             for (const std::uint8_t used : s.used) {
                 budget_.add_tile(std::min(settings.first_level, settings.max_level), used != 0);
             }
         }
     }
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
 
-    DirectMaps run(std::span<const DirectPart> lights, double from, double to) {
-        parts_.reserve(lights.size());
-        for (std::size_t i = 0; i < lights.size(); ++i) {
-            LightPart part(sheets_, lights[i], parts_, settings_, budget_, context_);
-            const double step = (to - from) / double(lights.size());
+    DirectMaps build(double from, double to) {
+        parts_.reserve(lights_.size());
+        for (std::size_t i = 0; i < lights_.size(); ++i) {
+            LightPart part(sheets_, lights_[i], parts_, settings_, budget_, *context_);
+            const double step = (to - from) / double(lights_.size());
             if (!part.run(from + step * double(i), from + step * double(i + 1))) {
                 return {};
             }
             parts_.push_back(std::move(part));
         }
         return finish(to);
+    }
+
+    RepairReport repair(const LightChange& change, DirectMaps& maps, const RunContext& context) {
+        context_ = &context;
+        RepairReport out;
+        std::vector<std::uint8_t> changed(sheets_.sheets().size(), 0);
+        std::size_t before = 0;
+        for (const LightPart& part : parts_) {
+            before += part.samples_taken();
+        }
+        for (LightPart& part : parts_) {
+            if (!part.repair(change, context, changed)) {
+                return out;
+            }
+        }
+        for (const LightPart& part : parts_) {
+            out.samples += part.samples_taken();
+        }
+        out.samples -= before;
+        std::vector<std::uint8_t> of_surface(charts_.size(), 0);
+        for (std::size_t i = 0; i < changed.size(); ++i) {
+            of_surface[sheets_.sheets()[i].surface] |= changed[i];
+        }
+        assemble([&](std::uint32_t surface) { return of_surface[surface] != 0; }, maps);
+        for (std::uint32_t s = 0; s < of_surface.size(); ++s) {
+            if (of_surface[s] != 0) {
+                out.surfaces.push_back(s);
+            }
+        }
+        out.complete = !context.should_stop();
+        return out;
+    }
+
+    [[nodiscard]] std::size_t memory_bytes() const {
+        std::size_t bytes = 0;
+        for (const LightPart& part : parts_) {
+            bytes += part.memory_bytes();
+        }
+        return bytes;
     }
 
 private:
@@ -74,52 +117,67 @@ private:
         out.back.resize(charts_.size());
         out.limited_tiles = budget_.limited();
         ErrorSum error;
-        std::vector<LightCells*> cells;
         for (LightPart& part : parts_) {
             out.evaluations += part.evaluations();
             error.add(part, sheets_, settings_.light_floor);
-            cells.push_back(&part.cells());
         }
         out.error_estimate = error.area > 0.0 ? std::sqrt(error.weighted / error.area) : 0.0;
-        const auto& sheets = sheets_.sheets();
-        std::vector<std::uint8_t> lit(sheets.size(), 0);
-        std::vector<SheetPlace> places;
-        for (std::uint32_t i = 0; i < sheets.size(); ++i) {
-            const Chart& c = *sheets[i].chart;
-            places.push_back({i, c.tile_u, c.tile_v, c.tiles_u, c.tiles_v});
+        assemble([](std::uint32_t) { return true; }, out);
+        if (context_->should_stop()) {
+            return {};
         }
-        for (LightCells* part : cells) {
-            for (const LightNode& n : part->nodes) {
+        for (const auto* side : {&out.front, &out.back}) {
+            for (const auto& map : *side) {
+                out.samples += map ? used_texels(*map) : 0;
+            }
+        }
+        context_->progress("direct", to);
+        out.complete = true;
+        return out;
+    }
+
+    // Maps of the surfaces that are wanted, from what the cells hold now.
+    template <class Wanted> void assemble(const Wanted& wanted, DirectMaps& out) {
+        const auto& sheets = sheets_.sheets();
+        std::vector<SheetPlace> places;
+        for (const SheetPlace& p : places_) {
+            if (wanted(sheets[p.sheet].surface)) {
+                places.push_back(p);
+            }
+        }
+        std::vector<std::uint8_t> lit(sheets.size(), 0);
+        std::vector<LightCells*> cells;
+        std::vector<std::vector<std::pair<std::uint32_t, LightNode>>> filled;
+        for (LightPart& part : parts_) {
+            cells.push_back(&part.cells());
+            for (const LightNode& n : part.cells().nodes) {
                 lit[n.sheet] |= max_component(n.irradiance) > 0.0F ? 1 : 0;
             }
-            fill_unknown_nodes(*part, places);
+            filled.push_back(fill_unknown_nodes(part.cells(), places));
         }
-        for (std::size_t begin = 0; begin < sheets.size();) {
-            const std::uint32_t surface = sheets[begin].surface;
+        for (std::size_t begin = 0; begin < places.size();) {
+            const std::uint32_t surface = sheets[places[begin].sheet].surface;
             std::size_t end = begin;
             std::array<std::vector<SheetPlace>, 2> side;
             std::array<bool, 2> any{false, false};
-            for (; end < sheets.size() && sheets[end].surface == surface; ++end) {
-                const std::size_t k = sheets[end].back ? 1 : 0;
+            for (; end < places.size() && sheets[places[end].sheet].surface == surface; ++end) {
+                const std::size_t k = sheets[places[end].sheet].back ? 1 : 0;
                 side[k].push_back(places[end]);
-                any[k] = any[k] || lit[end] != 0;
+                any[k] = any[k] || lit[places[end].sheet] != 0;
             }
             for (std::size_t k = 0; k < 2; ++k) {
-                if (any[k]) {
-                    auto map = std::make_shared<LightMap>(
-                        assemble_light_map(cells, side[k], charts_[surface].width, charts_[surface].height, context_));
-                    out.samples += used_texels(*map);
-                    (k == 0 ? out.front : out.back)[surface] = std::move(map);
-                }
+                auto& map = (k == 0 ? out.front : out.back)[surface];
+                map = any[k] ? std::make_shared<LightMap>(assemble_light_map(cells, side[k], charts_[surface].width,
+                                                                             charts_[surface].height, *context_))
+                             : nullptr;
             }
             begin = end;
         }
-        if (context_.should_stop()) {
-            return {};
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            for (const auto& [node, before] : filled[i]) {
+                cells[i]->nodes[node] = before;
+            }
         }
-        context_.progress("direct", to);
-        out.complete = true;
-        return out;
     }
     static std::size_t used_texels(const LightMap& map) {
         std::size_t sum = 0;
@@ -131,14 +189,27 @@ private:
     }
 
     std::span<const SurfaceCharts> charts_;
+    std::vector<DirectPart> lights_;
     LightSheets sheets_;
-    const DirectMapSettings& settings_;
-    const RunContext& context_;
+    DirectMapSettings settings_;
+    const RunContext* context_; ///< of the call at hand
     TileBudget budget_;
     std::vector<LightPart> parts_;
+    std::vector<SheetPlace> places_; ///< of all sheets
 };
 
-} // namespace
+LiveDirectMaps::LiveDirectMaps(const RayScene& rays, std::span<const SurfaceCharts> charts, std::vector<DirectPart> parts,
+                               const std::function<bool(std::uint32_t)>& back_lit, const DirectMapSettings& settings,
+                               const RunContext& context)
+    : impl_(std::make_unique<Impl>(rays, charts, std::move(parts), back_lit, settings, context)) {
+    ATRIUM_CHECK(charts.size() == rays.surfaces().size());
+}
+LiveDirectMaps::~LiveDirectMaps() = default;
+DirectMaps LiveDirectMaps::build(double from, double to) { return impl_->build(from, to); }
+RepairReport LiveDirectMaps::repair(const LightChange& change, DirectMaps& maps, const RunContext& context) {
+    return impl_->repair(change, maps, context);
+}
+std::size_t LiveDirectMaps::memory_bytes() const { return impl_->memory_bytes(); }
 
 std::size_t DirectMaps::memory_bytes() const {
     std::size_t bytes = 0;
@@ -153,14 +224,14 @@ std::size_t DirectMaps::memory_bytes() const {
 DirectMaps build_direct_maps(const RayScene& rays, std::span<const SurfaceCharts> charts, std::span<const DirectPart> parts,
                              const std::function<bool(std::uint32_t)>& back_lit, const DirectMapSettings& settings,
                              const RunContext& context, double progress_from, double progress_to) {
-    ATRIUM_CHECK(charts.size() == rays.surfaces().size());
-    return DirectMapBuild(rays, charts, back_lit, settings, context).run(parts, progress_from, progress_to);
+    return LiveDirectMaps(rays, charts, {parts.begin(), parts.end()}, back_lit, settings, context)
+        .build(progress_from, progress_to);
 }
 
 DirectMaps build_direct_maps(const RayScene& rays, std::span<const SurfaceCharts> charts, const DirectFunction& direct,
                              const std::function<bool(std::uint32_t)>& back_lit, const DirectMapSettings& settings,
                              const RunContext& context, double progress_from, double progress_to) {
-    const DirectPart part{direct, false};
+    const DirectPart part{direct, false, {}};
     return build_direct_maps(rays, charts, std::span(&part, 1), back_lit, settings, context, progress_from, progress_to);
 }
 

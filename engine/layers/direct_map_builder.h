@@ -23,6 +23,21 @@ struct DirectPart {
     /// From large sources only (sky through windows, panels): no streak is narrower than the first cells, so none is looked
     /// for between the samples, and texels of four times the finest size will do.
     bool soft = false;
+    /// A change within the box may change the light at the point; anything may when empty. Called from many threads.
+    std::function<bool(const vec3& point, const Box3& box)> touched;
+};
+
+/// What moved: where to look for light that changed.
+struct LightChange {
+    std::vector<Box3> boxes;         ///< bounds before and after, engine coordinates
+    std::vector<std::uint8_t> moved; ///< per surface of the ray scene: its own points moved
+};
+
+/// What a repair did.
+struct RepairReport {
+    std::size_t samples = 0;             ///< calls of direct functions
+    std::vector<std::uint32_t> surfaces; ///< whose maps are new, ascending
+    bool complete = false;               ///< false when the context asked to stop: the maps are then partly old
 };
 
 /// How fine and how exact. Levels are for tiles of 0.32 m: at level k samples are 0.32 m / 2^k apart.
@@ -46,6 +61,30 @@ struct DirectMaps {
     std::size_t limited_tiles = 0; ///< tiles coarser than their light asks for because max_samples was reached
     bool complete = false;         ///< false when the context asked to stop: then there are no maps
     [[nodiscard]] std::size_t memory_bytes() const;
+};
+
+/// Light maps together with what is needed to repair them where something moved. Engine thread; parallel inside.
+class LiveDirectMaps {
+public:
+    /// As build_direct_maps(); `rays` and `charts` must outlive it and may change between calls as their surfaces move.
+    LiveDirectMaps(const RayScene& rays, std::span<const SurfaceCharts> charts, std::vector<DirectPart> parts,
+                   const std::function<bool(std::uint32_t surface)>& back_lit, const DirectMapSettings& settings,
+                   const RunContext& context);
+    ~LiveDirectMaps();
+    LiveDirectMaps(const LiveDirectMaps&) = delete;
+    LiveDirectMaps& operator=(const LiveDirectMaps&) = delete;
+
+    /// See build_direct_maps(); once.
+    DirectMaps build(double progress_from, double progress_to);
+    /// Looks again at the samples that a change touches, closer where edges of shadows come to lie, and replaces the maps of
+    /// `maps` (what build() made) whose light changed. Cells are never joined again; soft parts are looked at on the
+    /// coarsest grid, and finer samples follow by interpolation of the change.
+    RepairReport repair(const LightChange& change, DirectMaps& maps, const RunContext& context);
+    [[nodiscard]] std::size_t memory_bytes() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
 };
 
 /// Builds the light maps of all charted surfaces from light in parts that add up; `charts` has one entry per surface of

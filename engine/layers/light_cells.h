@@ -66,6 +66,10 @@ public:
         return sheets_[sheet].first_tile + v * sheets_[sheet].tiles_u + u;
     }
 
+    [[nodiscard]] std::size_t memory_bytes() const {
+        return nodes.size() * sizeof(LightNode) + tiles_.size() * sizeof(TileState) + bits_.size() * 8 + table_.size() * 4;
+    }
+
     std::vector<LightNode> nodes;
     /// Node at a place; kNone where there is none.
     [[nodiscard]] std::uint32_t find(std::uint32_t sheet, std::uint32_t x, std::uint32_t y) const;

@@ -15,7 +15,8 @@ struct OpenCell {
 };
 
 // Rounds of one step outwards each, among cells with a corner in `state`.
-void flood(LightCells& cells, std::vector<OpenCell> open, State state) {
+void flood(LightCells& cells, std::vector<OpenCell> open, State state,
+           std::vector<std::pair<std::uint32_t, LightNode>>& before) {
     std::vector<Rgb> sum(open.empty() ? 0 : cells.nodes.size(), Rgb(0.0F));
     std::vector<std::uint16_t> count(sum.size(), 0);
     std::vector<std::uint32_t> reached;
@@ -43,6 +44,7 @@ void flood(LightCells& cells, std::vector<OpenCell> open, State state) {
             return;
         }
         for (const std::uint32_t n : reached) {
+            before.emplace_back(n, cells.nodes[n]);
             cells.nodes[n].irradiance = sum[n] / float(count[n]);
             cells.nodes[n].state = State::Known;
         }
@@ -158,7 +160,8 @@ void stitch(const SheetPlace& s, LightMap& map, std::uint32_t u, std::uint32_t v
 
 } // namespace
 
-void fill_unknown_nodes(LightCells& cells, std::span<const SheetPlace> sheets) {
+std::vector<std::pair<std::uint32_t, LightNode>> fill_unknown_nodes(LightCells& cells,
+                                                                    std::span<const SheetPlace> sheets) {
     std::vector<OpenCell> covered, away;
     std::vector<LightCell> leaves;
     for (const SheetPlace& s : sheets) {
@@ -181,8 +184,10 @@ void fill_unknown_nodes(LightCells& cells, std::span<const SheetPlace> sheets) {
             }
         }
     }
-    flood(cells, std::move(covered), State::Covered);
-    flood(cells, std::move(away), State::Void);
+    std::vector<std::pair<std::uint32_t, LightNode>> before;
+    flood(cells, std::move(covered), State::Covered, before);
+    flood(cells, std::move(away), State::Void, before);
+    return before;
 }
 
 LightMap assemble_light_map(std::span<LightCells* const> parts, std::span<const SheetPlace> sheets, std::uint32_t width,

@@ -19,7 +19,7 @@ constexpr std::size_t kGrain = 32;
 
 LightPart::LightPart(const LightSheets& sheets, const DirectPart& part, const std::vector<LightPart>& before,
                      const DirectMapSettings& settings, TileBudget& budget, const RunContext& context)
-    : sheets_(sheets), part_(part), before_(before), settings_(settings), budget_(budget), context_(context),
+    : sheets_(sheets), part_(part), before_(before), settings_(settings), budget_(budget), context_(&context),
       contrast_(settings.contrast),
       finest_(part.soft ? std::max(settings.first_level, settings.max_level - std::min(settings.max_level, 2U))
                         : settings.max_level),
@@ -90,7 +90,7 @@ std::vector<LightCell> LightPart::first_cells() {
     std::vector<LightCell> fresh;
     const unsigned level = cells_.first_level();
     const std::uint32_t s = cells_.steps(level), n = 1U << level;
-    for (std::uint32_t i = 0; i < sheets_.sheets().size() && !context_.should_stop(); ++i) {
+    for (std::uint32_t i = 0; i < sheets_.sheets().size() && !context_->should_stop(); ++i) {
         const LightSheet& sheet = sheets_.sheets()[i];
         for (std::uint32_t tile = 0; tile < sheet.used.size(); ++tile) {
             if (sheet.used[tile] == 0) {
@@ -166,23 +166,24 @@ bool LightPart::sample(double from, double to) {
     // In slices, so that progress can be told between parallel loops.
     const std::size_t slice = std::max<std::size_t>(requests_.size() / 20 + 1, 1024);
     for (std::size_t start = 0; start < requests_.size(); start += slice) {
-        if (context_.should_stop()) {
+        if (context_->should_stop()) {
             return false;
         }
         const std::size_t end = std::min(start + slice, requests_.size());
         parallel_chunks(end - start, kGrain, [&](std::size_t b, std::size_t e, std::size_t) {
-            if (context_.should_stop()) {
+            if (context_->should_stop()) {
                 return;
             }
             for (std::size_t i = start + b; i < start + e; ++i) {
                 take(requests_[i]);
             }
         });
-        context_.progress("direct", from + (to - from) * double(end) / double(requests_.size()));
+        context_->progress("direct", from + (to - from) * double(end) / double(requests_.size()));
     }
+    taken_ += requests_.size();
     requests_.clear();
     sampled_ = cells_.nodes.size();
-    return !context_.should_stop();
+    return !context_->should_stop();
 }
 
 void LightPart::take(const Request& request) {
@@ -203,6 +204,162 @@ void LightPart::take(const Request& request) {
     node.irradiance = light.irradiance;
     node.variance = light.variance;
     node.state = state;
+}
+
+// ---- repair
+
+// Where a place lies, by the chart's plane: enough to tell whether a change may reach it.
+bool LightPart::may_change(const LightChange& change, std::uint32_t sheet, const vec2& steps) const {
+    const LightSheet& s = sheets_.sheets()[sheet];
+    if (change.moved[s.surface] != 0 || !part_.touched) {
+        return true;
+    }
+    const vec2 at = steps * metres_per_step(sheet);
+    vec3 point;
+    if (s.chart->planar) {
+        point = s.chart->origin + s.chart->axis_u * at.x + s.chart->axis_v * at.y;
+    } else if (const auto place = sheets_.locate(sheet, at, glm::length(metres_per_step(sheet)))) {
+        point = place->point;
+    } else {
+        return false;
+    }
+    return std::any_of(change.boxes.begin(), change.boxes.end(), [&](const Box3& box) {
+        const vec3 off = glm::max(glm::max(box.min - point, point - box.max), vec3(0.0F));
+        return glm::length(off) <= settings_.cover_reach || part_.touched(point, box);
+    });
+}
+
+// Requests for the nodes and probes that a change may reach; the nodes.
+std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
+    const std::uint32_t coarse = cells_.steps(cells_.first_level()) - 1;
+    std::vector<std::uint8_t> hit(cells_.nodes.size(), 0);
+    parallel_chunks(hit.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end && !context_->should_stop(); ++i) {
+            const LightNode& n = cells_.nodes[i];
+            const bool skipped = part_.soft && ((n.x | n.y) & coarse) != 0;
+            hit[i] = !skipped && n.state != State::Void && may_change(change, n.sheet, vec2(float(n.x), float(n.y))) ? 1 : 0;
+        }
+    });
+    std::vector<std::uint32_t> asked;
+    for (std::uint32_t i = 0; i < hit.size(); ++i) {
+        if (hit[i] != 0) {
+            const LightNode& n = cells_.nodes[i];
+            Request r;
+            r.sheet = n.sheet;
+            r.index = i;
+            r.at = vec2(float(n.x), float(n.y)) * metres_per_step(n.sheet);
+            r.reach = glm::length(metres_per_step(n.sheet)) * float(cells_.steps(cells_.first_level()));
+            requests_.push_back(r);
+            asked.push_back(i);
+        }
+    }
+    if (part_.soft) {
+        return asked;
+    }
+    const std::uint32_t s = cells_.steps(cells_.first_level());
+    for (std::uint32_t sheet = 0; sheet < first_probe_.size(); ++sheet) {
+        const std::size_t end = sheet + 1 < first_probe_.size() ? first_probe_[sheet + 1] : probes_.size();
+        for (std::size_t i = first_probe_[sheet]; i < end; ++i) {
+            Probe& probe = probes_[i];
+            if ((probe.seen.known || probe.covered) && may_change(change, sheet, probe.at)) {
+                Request r;
+                r.sheet = sheet;
+                r.index = std::uint32_t(i);
+                r.probe = true;
+                r.at = probe.at * metres_per_step(sheet);
+                r.reach = glm::length(metres_per_step(sheet)) * float(s);
+                requests_.push_back(r);
+            }
+        }
+    }
+    return asked;
+}
+
+// Soft light changes slowly: what the coarsest nodes say of the change, the finer ones between them follow.
+void LightPart::spread_change(const std::vector<std::uint32_t>& asked, const std::vector<LightNode>& before) {
+    const std::uint32_t s = cells_.steps(cells_.first_level());
+    std::vector<std::uint32_t> place(cells_.nodes.size(), LightCells::kNone); // of a node in `asked`
+    for (std::uint32_t k = 0; k < asked.size(); ++k) {
+        place[asked[k]] = k;
+    }
+    const auto difference = [&](std::uint32_t sheet, std::uint32_t x, std::uint32_t y) {
+        const std::uint32_t n = cells_.find(sheet, x, y);
+        if (n == LightCells::kNone || place[n] == LightCells::kNone || !cells_.nodes[n].known() ||
+            !before[place[n]].known()) {
+            return Rgb(0.0F);
+        }
+        return cells_.nodes[n].irradiance - before[place[n]].irradiance;
+    };
+    parallel_chunks(cells_.nodes.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end && !context_->should_stop(); ++i) {
+            LightNode& n = cells_.nodes[i];
+            if (((n.x | n.y) & (s - 1)) == 0 || !n.known()) {
+                continue;
+            }
+            const std::uint32_t x = n.x & ~(s - 1), y = n.y & ~(s - 1);
+            const float fx = float(n.x - x) / float(s), fy = float(n.y - y) / float(s);
+            const Rgb d = (difference(n.sheet, x, y) * (1.0F - fx) + difference(n.sheet, x + s, y) * fx) * (1.0F - fy) +
+                          (difference(n.sheet, x, y + s) * (1.0F - fx) + difference(n.sheet, x + s, y + s) * fx) * fy;
+            n.irradiance = glm::max(n.irradiance + d, Rgb(0.0F));
+        }
+    });
+}
+
+// The undivided cells that meet at nodes, each once.
+std::vector<LightCell> LightPart::cells_around(const std::vector<std::uint32_t>& changed) const {
+    std::vector<LightCell> out;
+    for (const std::uint32_t i : changed) {
+        const LightNode& n = cells_.nodes[i];
+        for (std::int64_t k = 0; k < 4; ++k) {
+            if (const auto cell = cells_.leaf(n.sheet, std::int64_t(n.x) - (k & 1), std::int64_t(n.y) - (k >> 1))) {
+                out.push_back(*cell);
+            }
+        }
+    }
+    const auto key = [](const LightCell& c) { return std::tuple(c.sheet, c.y, c.x, c.level); };
+    std::sort(out.begin(), out.end(), [&](const LightCell& a, const LightCell& b) { return key(a) < key(b); });
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+}
+
+bool LightPart::repair(const LightChange& change, const RunContext& context, std::vector<std::uint8_t>& changed_sheets) {
+    context_ = &context;
+    const std::vector<std::uint32_t> asked = ask_again(change);
+    std::vector<LightNode> before;
+    before.reserve(asked.size());
+    for (const std::uint32_t i : asked) {
+        before.push_back(cells_.nodes[i]);
+    }
+    bool going_on = sample(0.0, 0.0);
+    std::vector<std::uint32_t> changed;
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+        const LightNode& now = cells_.nodes[asked[k]];
+        if (now.irradiance != before[k].irradiance || now.state != before[k].state) {
+            changed.push_back(asked[k]);
+            changed_sheets[now.sheet] = 1;
+        }
+    }
+    if (part_.soft) {
+        if (going_on && !changed.empty()) {
+            spread_change(asked, before);
+        }
+        return going_on;
+    }
+    std::vector<LightCell> fresh = cells_around(changed);
+    std::vector<Rough> rough;
+    while (going_on && !(fresh.empty() && rough.empty())) {
+        examine(fresh, rough);
+        fresh = divide(rough);
+        rough.clear();
+        const std::size_t first_new = sampled_;
+        going_on = sample(0.0, 0.0);
+        look_beside(first_new, rough);
+    }
+    return going_on;
+}
+
+std::size_t LightPart::memory_bytes() const {
+    return cells_.memory_bytes() + probes_.size() * sizeof(Probe) + first_probe_.size() * sizeof(std::size_t);
 }
 
 // ---- which cells are rough
@@ -339,7 +496,7 @@ float LightPart::other_light(const LightCell& c) const {
 void LightPart::examine(const std::vector<LightCell>& fresh, std::vector<Rough>& rough) const {
     std::vector<float> errors(fresh.size(), 0.0F);
     parallel_chunks(fresh.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end && !context_.should_stop(); ++i) {
+        for (std::size_t i = begin; i < end && !context_->should_stop(); ++i) {
             errors[i] = fresh[i].level < finest_ ? error(fresh[i]) : 0.0F;
         }
     });
@@ -355,7 +512,7 @@ void LightPart::look_beside(std::size_t first_new, std::vector<Rough>& rough) co
     const std::size_t count = cells_.nodes.size() - first_new;
     std::vector<std::array<Rough, 4>> found(count);
     parallel_chunks(count, 256, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end && !context_.should_stop(); ++i) {
+        for (std::size_t i = begin; i < end && !context_->should_stop(); ++i) {
             const LightNode& n = cells_.nodes[first_new + i];
             for (std::size_t k = 0; k < 4; ++k) {
                 found[i][k] = beside(n, k);
@@ -405,7 +562,7 @@ std::vector<LightCell> LightPart::divide(std::vector<Rough>& rough) {
     std::vector<LightCell> fresh;
     fresh.reserve(4 * rough.size());
     for (std::size_t i = 0; i < rough.size(); ++i) {
-        if (i % 4096 == 0 && context_.should_stop()) {
+        if (i % 4096 == 0 && context_->should_stop()) {
             break;
         }
         const Rough& r = rough[i];

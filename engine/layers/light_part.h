@@ -22,10 +22,17 @@ public:
     /// Samples and divides until all is smooth, as fine as allowed, or the budget is spent; false when asked to stop.
     bool run(double progress_from, double progress_to);
 
+    /// Looks again where a change may have changed the light, and divides cells where its edges lie now. Marks sheets whose
+    /// light is new. False when asked to stop.
+    bool repair(const LightChange& change, const RunContext& context, std::vector<std::uint8_t>& changed_sheets);
+
     [[nodiscard]] LightCells& cells() { return cells_; }
     [[nodiscard]] const LightCells& cells() const { return cells_; }
     /// Calls of the direct function.
     [[nodiscard]] std::size_t evaluations() const;
+    /// The same over all runs and repairs.
+    [[nodiscard]] std::size_t samples_taken() const { return taken_; }
+    [[nodiscard]] std::size_t memory_bytes() const;
 
 private:
     /// A sample to take.
@@ -55,6 +62,10 @@ private:
     bool sample(double from, double to);
     void take(const Request& request);
 
+    [[nodiscard]] bool may_change(const LightChange& change, std::uint32_t sheet, const vec2& steps) const;
+    std::vector<std::uint32_t> ask_again(const LightChange& change);
+    void spread_change(const std::vector<std::uint32_t>& asked, const std::vector<LightNode>& before);
+    [[nodiscard]] std::vector<LightCell> cells_around(const std::vector<std::uint32_t>& changed) const;
     void find_floors();
     [[nodiscard]] float relative(std::uint32_t sheet, float difference, float variance, float light) const;
     [[nodiscard]] float bend(const LightCell& cell, const LightGuess& a, const LightGuess& b, const LightNode& start,
@@ -79,7 +90,7 @@ private:
     const std::vector<LightPart>& before_;
     const DirectMapSettings& settings_;
     TileBudget& budget_;
-    const RunContext& context_;
+    const RunContext* context_; ///< of the call at hand
     float contrast_;           ///< of this part: error of the interpolation that asks for finer cells
     std::vector<float> floor_; ///< lux, per sheet: errors are judged against at least this
     unsigned finest_;          ///< level below which this part's cells are not divided
@@ -88,6 +99,7 @@ private:
     std::vector<Probe> probes_;
     std::vector<Request> requests_;
     std::size_t asked_ = 0;   ///< nodes that were asked for
+    std::size_t taken_ = 0;   ///< samples
     std::size_t sampled_ = 0; ///< nodes that were sampled
 };
 

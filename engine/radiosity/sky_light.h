@@ -21,6 +21,10 @@ public:
 
     [[nodiscard]] bool empty() const { return !(max_component(radiance_) > 0.0F); }
     /// Openings without glass that were found.
+    /// Panes, then openings.
+    [[nodiscard]] std::span<const SkyWindow> windows() const { return windows_; }
+    /// Some sky is seen past the windows, or may be.
+    [[nodiscard]] bool elsewhere() const { return elsewhere_; }
     [[nodiscard]] std::span<const SkyWindow> openings() const { return std::span(windows_).subspan(first_opening_); }
     /// Irradiance at a point. Windows and the hemisphere past them are looked at coarsely, then closer where neighbouring
     /// rays see differently, until what that leaves uncertain is about 1 / (10 sqrt(sky_rays)) of the light, or about twice
