@@ -26,7 +26,7 @@ struct ParticleUpdate {
     std::uint64_t landings = 0;  ///< taken away, put in or replaced by others
     std::uint32_t links = 0;     ///< with particles that were traced again
     std::uint32_t re_aimed = 0;  ///< of these: traced again as a whole, since their source or target moved
-    std::vector<std::uint32_t> surfaces; ///< whose landings or their power are others now, ascending
+    std::vector<std::uint32_t> surfaces; ///< that moved, or whose landings or their power are others now, ascending
     double find_seconds = 0.0;           ///< for what is touched
     double trace_seconds = 0.0;
     double store_seconds = 0.0;

@@ -175,6 +175,9 @@ ParticleUpdate ParticleMap::update(const ParticleScene& scene, std::span<const B
         mark(c.now, surfaces);
         out.landings += std::max(c.count, c.now.size());
     }
+    for (const std::uint32_t s : moved) {
+        surfaces[s] = 1;
+    }
     std::size_t k = 0;
     for (std::size_t i = 0; i < links.size(); ++i) { // brightness is no part of a landing
         const ParticleLink& l = links[i];

@@ -44,7 +44,7 @@ inline NodeId add_sun(Scene& scene, const dvec3& direction, float lux) {
     return scene.roots.back();
 }
 
-/// An open stage: floor and back wall, a bent mirror, a ball of glass, a rough metal ball, sun, lamp, a shining ball and a
+/// An open stage: floor and back wall, two mirrors, a ball of glass, a rough metal ball, sun, lamp, a shining ball and a
 /// small box to move.
 struct Stage {
     Scene scene;
@@ -58,6 +58,8 @@ inline Stage stage() {
     add_rectangle(scene, "wall", {0, 1.5, -3}, {0, 0, 1}, {1, 0, 0}, 6.0F, 3.0F, matt);
     add_rectangle(scene, "mirror", {1.5, 1.0, 0.3}, glm::normalize(dvec3(-1, -0.1, 0)), {0, 0, 1}, 0.8F, 0.8F,
                   add_specular(scene, false));
+    add_rectangle(scene, "to the wall", {-2.0, 1.2, -1.5}, glm::normalize(dvec3(-0.41, 0.6, -0.81)),
+                  glm::normalize(dvec3(0.81, 0, -0.41)), 0.3F, 0.3F, add_specular(scene, false));
     s.ball = add_shape(scene, Sphere{0.3F}, {-0.6, 0.5, -0.5}, add_specular(scene, true));
     add_shape(scene, Sphere{0.2F}, {0.2, 0.4, -1.5}, add_specular(scene, false, 0.2F));
     s.box = add_shape(scene, Box{{0.2F, 0.2F, 0.2F}}, {0.0, 0.3, 0.0}, matt);
