@@ -188,6 +188,52 @@ std::vector<Deposit> gather_deposits(const RayScene& rays, const ParticleMap& pa
     return out;
 }
 
+// Textures of one side and which of its landings are left to the mesh (`places`); returns its records.
+std::vector<CausticRecord> build_side(const RayScene& rays, const SurfaceCharts& chart, const ParticleMap& particles,
+                                      const std::vector<std::uint32_t>& landings, const CausticSettings& settings,
+                                      CausticLight::Side& side) {
+    const RaySurface& surface = rays.surfaces()[side.surface];
+    std::vector<CausticLanding> charted;
+    std::vector<std::uint32_t> place; // of charted ones among all
+    CausticRecord uncharted;
+    for (std::uint32_t i = 0; i < landings.size(); ++i) {
+        const Landing& l = particles.landings()[landings[i]];
+        const Rgb power = particles.power(l);
+        if (chart.empty() || chart.chart_of_triangle[l.triangle] == SurfaceCharts::kNone) {
+            side.places.push_back(i);
+            ++uncharted.particles;
+            uncharted.power_mesh += luminance(power);
+            continue;
+        }
+        const auto p = rays.triangle(l.surface, l.triangle);
+        const auto& uv = chart.uv[l.triangle];
+        charted.push_back({l.triangle, l.barycentric, chart_uv(chart, l.triangle, l.barycentric), to_chart(p, uv, l.axis_a),
+                           to_chart(p, uv, l.axis_b), power});
+        place.push_back(i);
+    }
+    std::vector<CausticRecord> records;
+    if (!charted.empty()) {
+        CausticSide built = build_caustics(charted, chart, *surface.positions, surface.triangles, settings);
+        side.textures = std::move(built.textures);
+        for (const std::uint32_t i : built.on_mesh) {
+            side.places.push_back(place[i]);
+        }
+        records = std::move(built.records);
+    }
+    if (uncharted.particles > 0) {
+        uncharted.chart = SurfaceCharts::kNone;
+        uncharted.decision = CausticRecord::Decision::Uncharted;
+        uncharted.why = "pieces too small for a chart";
+        records.push_back(uncharted);
+    }
+    for (CausticRecord& record : records) {
+        record.node = surface.node;
+        record.part = surface.part;
+        record.back = side.back;
+    }
+    return records;
+}
+
 } // namespace
 
 std::size_t CausticLight::memory_bytes() const {
@@ -209,58 +255,39 @@ std::size_t CausticLight::texture_count() const {
 }
 
 CausticLight build_caustic_light(const RayScene& rays, std::span<const SurfaceCharts> charts, const ParticleMap& particles,
-                                 const CausticSettings& settings) {
+                                 const CausticSettings& settings, const CausticReuse* reuse) {
     CausticLight out;
     std::map<std::pair<std::uint32_t, bool>, std::vector<std::uint32_t>> by_side;
     for (std::uint32_t i = 0; i < particles.landings().size(); ++i) {
         const Landing& l = particles.landings()[i];
         by_side[{l.surface, l.back}].push_back(i);
     }
-    for (auto& [key, landings] : by_side) {
+    std::map<std::pair<std::uint32_t, bool>, const CausticLight::Side*> kept;
+    for (std::size_t i = 0; reuse != nullptr && i < reuse->before.sides.size(); ++i) {
+        const CausticLight::Side& side = reuse->before.sides[i];
+        if (!std::binary_search(reuse->changed.begin(), reuse->changed.end(), side.surface)) {
+            kept[{side.surface, side.back}] = &side;
+        }
+    }
+    for (const auto& [key, landings] : by_side) {
         CausticLight::Side side;
-        side.surface = key.first;
-        side.back = key.second;
-        const RaySurface& surface = rays.surfaces()[side.surface];
-        const SurfaceCharts& chart = charts[side.surface];
-        std::vector<CausticLanding> charted;
-        std::vector<std::uint32_t> index; // of charted ones among all
-        CausticRecord uncharted;
-        for (const std::uint32_t i : landings) {
-            const Landing& l = particles.landings()[i];
-            const Rgb power = particles.power(l);
-            if (chart.empty() || chart.chart_of_triangle[l.triangle] == SurfaceCharts::kNone) {
-                side.on_mesh.push_back(i);
-                ++uncharted.particles;
-                uncharted.power_mesh += luminance(power);
-                continue;
-            }
-            const auto p = rays.triangle(l.surface, l.triangle);
-            const auto& uv = chart.uv[l.triangle];
-            charted.push_back({l.triangle, l.barycentric, chart_uv(chart, l.triangle, l.barycentric),
-                               to_chart(p, uv, l.axis_a), to_chart(p, uv, l.axis_b), power});
-            index.push_back(i);
-        }
         std::vector<CausticRecord> records;
-        if (!charted.empty()) {
-            CausticSide built = build_caustics(charted, chart, *surface.positions, surface.triangles, settings);
-            side.textures = std::move(built.textures);
-            for (const std::uint32_t i : built.on_mesh) {
-                side.on_mesh.push_back(index[i]);
-            }
-            records = std::move(built.records);
+        const auto old = kept.find(key);
+        if (old != kept.end()) {
+            side = *old->second;
+            const auto from = reuse->before.records.begin() + std::ptrdiff_t(side.first_record);
+            records.assign(from, from + std::ptrdiff_t(side.record_count));
+        } else {
+            side.surface = key.first;
+            side.back = key.second;
+            records = build_side(rays, charts[side.surface], particles, landings, settings, side);
         }
-        if (uncharted.particles > 0) {
-            uncharted.chart = SurfaceCharts::kNone;
-            uncharted.decision = CausticRecord::Decision::Uncharted;
-            uncharted.why = "pieces too small for a chart";
-            records.push_back(uncharted);
-        }
-        for (CausticRecord& record : records) {
-            record.node = surface.node;
-            record.part = surface.part;
-            record.back = side.back;
-            out.records.push_back(std::move(record));
-        }
+        side.on_mesh.resize(side.places.size());
+        std::transform(side.places.begin(), side.places.end(), side.on_mesh.begin(),
+                       [&landings = landings](std::uint32_t place) { return landings[place]; });
+        side.first_record = out.records.size();
+        side.record_count = records.size();
+        std::move(records.begin(), records.end(), std::back_inserter(out.records));
         out.sides.push_back(std::move(side));
     }
     return out;

@@ -15,6 +15,10 @@ struct CausticLight {
         bool back = false;
         std::vector<std::shared_ptr<const CausticTexture>> textures;
         std::vector<std::uint32_t> on_mesh; ///< into ParticleMap::landings()
+        std::vector<std::uint32_t> places;  ///< of these among the landings of this side: they stay when others change
+        std::size_t first_record = 0;       ///< its records in CausticLight::records
+        std::size_t record_count = 0;
+        friend bool operator==(const Side&, const Side&) = default;
     };
     std::vector<Side> sides; ///< by surface, front before back
     std::vector<CausticRecord> records;
@@ -25,10 +29,18 @@ struct CausticLight {
     [[nodiscard]] std::size_t texture_count() const;
 };
 
+/// What may be taken over from caustic light as it was before an edit.
+struct CausticReuse {
+    const CausticLight& before; ///< of the same settings; its textures are shared
+    /// Surfaces whose landings, power, place or charts are others now, ascending: see ParticleUpdate. The textures and
+    /// records of all others stay.
+    std::span<const std::uint32_t> changed;
+};
+
 /// Decides, sizes and fills the textures of every side. `charts` as chart_surfaces() makes them. Parallel; the same for any
-/// number of threads.
+/// number of threads, and with `reuse` (may be null) as without.
 CausticLight build_caustic_light(const RayScene& rays, std::span<const SurfaceCharts> charts, const ParticleMap& particles,
-                                 const CausticSettings& settings);
+                                 const CausticSettings& settings, const CausticReuse* reuse = nullptr);
 
 /// Puts the light on the layers: textures are shared, landings without one are spread over the vertices around them, so that
 /// what triangles interpolate holds their power exactly. `layers` are those of the same ray scene.

@@ -119,8 +119,8 @@ void through_cone(const vec3& origin, const Box3& bounds, const vec2& u, vec3& d
     dv = (at({u.x, u.y + step.y}) - direction) / step.y;
 }
 
-bool emit_sun(const ParticleSource& source, const SpecularTarget& target, const ParticleAim& w, const RayScene& rays,
-              const vec4& u, Emission& out) {
+bool emit_sun(const ParticleSource& source, const SpecularTarget& target, const ParticleAim& w, const vec4& u,
+              Emission& out) {
     const vec3 axis = source.light.axis;
     const float radius = source.sun_radius;
     const vec3 centre = target.bounds.centre();
@@ -131,8 +131,7 @@ bool emit_sun(const ParticleSource& source, const SpecularTarget& target, const 
     const vec2 disc = radius * concentric({u.z, u.w});
     out.direction = glm::normalize(axis + disc.x * t + disc.y * b);
     const vec3 at = centre + w.a * (w.low.x + u.x * size.x) + w.b * (w.low.y + u.y * size.y);
-    const Box3 all = rays.bounds();
-    const float away = all.diagonal() + glm::length(at - all.centre()) + 1.0F;
+    const float away = source.reach + glm::length(at) + 1.0F;
     out.origin = at - out.direction * away;
     out.throughput = Rgb(size.x * size.y);
     out.d_origin = {w.a * size.x, w.b * size.y, vec3(0.0F), vec3(0.0F)};
@@ -218,8 +217,28 @@ std::array<vec3, 2> spread_axes(const std::vector<std::pair<vec3, double>>& poin
 
 } // namespace
 
+bool sends_alike(const ParticleSource& a, const ParticleSource& b) {
+    const Light& l = a.light.light;
+    const Light& m = b.light.light;
+    return l.kind == m.kind && l.inner_cone == m.inner_cone && l.outer_cone == m.outer_cone &&
+           a.light.position == b.light.position && a.light.axis == b.light.axis && a.leaves == b.leaves &&
+           a.power == b.power && a.centre == b.centre && a.extent == b.extent && a.sun_radius == b.sun_radius &&
+           a.has_size == b.has_size && a.reach == b.reach && a.surface == b.surface && a.key == b.key;
+}
+
+float scene_reach(const RayScene& rays) {
+    const Box3 all = rays.bounds();
+    const float corner = glm::length(glm::max(glm::abs(all.min), glm::abs(all.max)));
+    float reach = 1.0F;
+    while (reach < corner && std::isfinite(corner)) {
+        reach *= 2.0F;
+    }
+    return reach;
+}
+
 std::vector<ParticleSource> particle_sources(const DirectLight& direct, const Hierarchy& emitters, const RayScene& rays) {
     std::vector<ParticleSource> out;
+    const float reach = scene_reach(rays);
     for (const PlacedLight& light : direct.lights()) {
         ParticleSource source;
         source.light = light;
@@ -227,6 +246,7 @@ std::vector<ParticleSource> particle_sources(const DirectLight& direct, const Hi
         if (light.light.kind == Light::Kind::Directional) {
             source.sun_radius = std::tan(float(radians_from_degrees(0.5 * light.light.angular_diameter_degrees)));
             source.has_size = source.sun_radius > 0.0F;
+            source.reach = reach;
         }
         source.key = hash_combine(0x1A3BULL, out.size());
         out.push_back(std::move(source));
@@ -257,6 +277,7 @@ std::vector<ParticleSource> particle_sources(const DirectLight& direct, const Hi
         }
         source.centre = vec3(centre / total);
         source.has_size = true;
+        source.surface = surface;
         source.extent = spread_axes(points[surface], source.centre);
         source.key = hash_combine(0xA4EAULL, surface);
         out.push_back(std::move(source));
@@ -298,7 +319,7 @@ bool emit(const ParticleSource& source, const SpecularTarget& target, const Part
         return emit_area(source, target, aim, emitters, rays, u, out);
     }
     if (source.light.light.kind == Light::Kind::Directional) {
-        return emit_sun(source, target, aim, rays, u, out);
+        return emit_sun(source, target, aim, u, out);
     }
     float solid_angle = 0.0F;
     vec3 du;

@@ -19,8 +19,14 @@ struct ParticleSource {
     Rgb radiance{1.0F};                ///< lamps: intensity (cd) or normal irradiance (lux); emitters: 1
     float sun_radius = 0.0F;           ///< tangent of the angular radius
     bool has_size = false;             ///< false: a point or a parallel beam, which the last two numbers do not matter to
-    std::uint64_t key = 0;             ///< seeds its streams; from what it is, not from where it is stored
+    /// Suns: nothing of the scene lies further from (0,0,0), metres. A power of two: where particles start stays the same to
+    /// the last bit while things move about in the scene.
+    float reach = 0.0F;
+    std::uint32_t surface = Hit::kNone; ///< that an area source's leaves belong to
+    std::uint64_t key = 0;              ///< seeds its streams; from what it is, not from where it is stored
 };
+/// True where both send the same particles: all but their brightness.
+bool sends_alike(const ParticleSource& a, const ParticleSource& b);
 
 /// One particle about to leave. A derivative is by one of the numbers that it was made from, over [0,1].
 struct Emission {
@@ -30,6 +36,9 @@ struct Emission {
     std::array<vec3, 4> d_origin{}; ///< 0, 1: what spreads the particles over the target; 2, 3: the source's own size
     std::array<vec3, 4> d_direction{};
 };
+
+/// Distance from (0,0,0) that nothing of a scene lies beyond, a power of two, metres.
+float scene_reach(const RayScene& rays);
 
 /// Sources of a scene: lamps and suns of `direct`, and the leaves of `emitters` (may be empty) by surface.
 std::vector<ParticleSource> particle_sources(const DirectLight& direct, const Hierarchy& emitters, const RayScene& rays);

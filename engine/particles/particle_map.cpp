@@ -6,44 +6,6 @@
 #include <algorithm>
 
 namespace atrium {
-namespace {
-
-constexpr std::size_t kGrain = 512;
-
-struct Traced {
-    std::vector<Landing> landings;
-    ParticleEnergy energy;
-};
-
-// Particles [0, count) of every link, in chunks that do not depend on threads.
-std::vector<Traced> trace(const RayScene& rays, const SpecularTargets& targets, const Hierarchy& emitters,
-                          const std::vector<ParticleSource>& sources, const std::vector<ParticleLink>& links,
-                          const CarriedByImage& by_image, const RunContext& context) {
-    std::vector<std::size_t> first(links.size() + 1, 0);
-    for (std::size_t i = 0; i < links.size(); ++i) {
-        first[i + 1] = first[i] + links[i].count;
-    }
-    std::vector<ParticleStream> streams(links.size());
-    for (std::uint32_t i = 0; i < links.size(); ++i) {
-        const ParticleLink& l = links[i];
-        streams[i] = {
-            &sources[l.source], l.target, i, l.key, l.count, make_aim(sources[l.source], targets.targets()[l.target])};
-    }
-    std::vector<Traced> out(chunk_count(first.back(), kGrain));
-    parallel_chunks(first.back(), kGrain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-        auto link = std::size_t(std::upper_bound(first.begin(), first.end(), begin) - first.begin()) - 1;
-        for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
-            while (i >= first[link + 1]) {
-                ++link;
-            }
-            trace_particle(rays, targets, emitters, streams[link], std::uint32_t(i - first[link]), by_image,
-                           out[chunk].landings, out[chunk].energy);
-        }
-    });
-    return out;
-}
-
-} // namespace
 
 ParticleMap::ParticleMap(const RayScene& rays, const SpecularTargets& targets, const DirectLight& direct,
                          const Hierarchy& emitters, const CarriedByImage& by_image, const ParticleSettings& settings,
@@ -69,7 +31,9 @@ ParticleMap::ParticleMap(const RayScene& rays, const SpecularTargets& targets, c
             links_.push_back(link);
         }
     }
-    for (const Traced& part : trace(rays, targets, emitters, sources_, links_, by_image, context)) {
+    const ParticleScene scene{rays, targets, direct, emitters, by_image};
+    prepare_links(links_, sources_, targets);
+    for (const ParticleBatch& part : trace_batches(scene, sources_, links_, nullptr, false, context)) {
         for (const Landing& landing : part.landings) {
             links_[landing.link].landed += luminance(power(landing));
         }
@@ -86,30 +50,79 @@ ParticleMap::ParticleMap(const RayScene& rays, const SpecularTargets& targets, c
         l.count = std::max(pilot, std::uint32_t(std::lround(settings.particles * (l.landed / all))));
         emitted_ += l.count;
     }
-    std::vector<Traced> parts = trace(rays, targets, emitters, sources_, links_, by_image, context);
+    prepare_links(links_, sources_, targets);
+    std::vector<ParticleBatch> batches = trace_batches(scene, sources_, links_, nullptr, settings.keep_paths, context);
     if (context.should_stop()) {
         return;
     }
-    std::size_t count = 0;
-    for (const Traced& part : parts) {
-        count += part.landings.size();
+    if (settings.keep_paths) {
+        paths_.emplace();
     }
+    store(std::move(batches));
+    complete_ = true;
+}
+
+void ParticleMap::store(std::vector<ParticleBatch>&& batches) {
+    std::size_t count = 0, vertices = 0;
+    for (const ParticleBatch& b : batches) {
+        count += b.landings.size();
+        vertices += b.vertices.size();
+    }
+    landings_.clear();
     landings_.reserve(count);
-    for (Traced& part : parts) {
-        landings_.insert(landings_.end(), part.landings.begin(), part.landings.end());
-        part.landings = {};
-        energy_ += part.energy;
+    energy_ = {};
+    shares_.clear();
+    if (paths_) {
+        paths_->reset(emitted_, vertices);
+        shares_.reserve(emitted_);
+    }
+    std::size_t particle = 0;
+    for (ParticleBatch& b : batches) {
+        landings_.insert(landings_.end(), b.landings.begin(), b.landings.end());
+        energy_ += b.energy;
+        shares_.insert(shares_.end(), b.shares.begin(), b.shares.end());
+        std::size_t at = 0;
+        for (const std::uint32_t n : b.vertex_count) {
+            paths_->set(particle++, std::span(b.vertices).subspan(at, n));
+            at += n;
+        }
+        b = {};
+    }
+    if (paths_) {
+        sum_energy();
+    }
+    count_landings();
+}
+
+void ParticleMap::count_landings() {
+    for (ParticleLink& l : links_) {
+        l.first = l.landings = 0;
     }
     for (std::size_t i = 0; i < landings_.size(); ++i) {
         ParticleLink& l = links_[landings_[i].link];
         l.first = l.landings == 0 ? i : l.first;
         ++l.landings;
     }
-    complete_ = true;
+}
+
+void ParticleMap::sum_energy() {
+    constexpr std::size_t kGrain = 4096;
+    energy_ = {};
+    std::vector<ParticleEnergy> parts(chunk_count(shares_.size(), kGrain));
+    parallel_chunks(shares_.size(), kGrain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const ParticleShares& s = shares_[i];
+            parts[chunk] += {s[0], s[1], s[2], s[3], s[4], s[5]};
+        }
+    });
+    for (const ParticleEnergy& part : parts) {
+        energy_ += part;
+    }
 }
 
 std::size_t ParticleMap::memory_bytes() const {
     std::size_t bytes = landings_.capacity() * sizeof(Landing) + links_.capacity() * sizeof(ParticleLink);
+    bytes += shares_.capacity() * sizeof(ParticleShares) + (paths_ ? paths_->memory_bytes() : 0);
     for (const ParticleSource& s : sources_) {
         bytes += s.leaves.capacity() * (sizeof(std::uint32_t) + sizeof(double));
     }

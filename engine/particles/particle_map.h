@@ -1,9 +1,11 @@
 // All particles of a scene: links from sources to specular targets, how many particles each is worth, and where they landed.
 #pragma once
 
-#include "engine/base/run_context.h"
-#include "engine/particles/particle_tracer.h"
+#include "engine/particles/particle_batch.h"
+#include "engine/particles/particle_paths.h"
 
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace atrium {
@@ -12,20 +14,25 @@ struct ParticleSettings {
     std::uint32_t particles = 250'000; ///< emitted at most, all links together
     std::uint32_t pilot = 256;         ///< of every link: what it is worth
     std::uint32_t seed = 1;
+    bool keep_paths = false; ///< for ParticleMap::update(); about 90 bytes a particle
 };
 
-/// Light from one source to one target. Its stream of particles is fixed by its key: more of them keep those there were.
-struct ParticleLink {
-    std::uint32_t source = 0; ///< into ParticleMap::sources()
-    std::uint32_t target = 0; ///< into SpecularTargets::targets()
-    std::uint64_t key = 0;
-    std::uint32_t count = 0; ///< particles emitted
-    double landed = 0.0;     ///< lumen that reached surfaces, luminance, by the pilot
-    std::size_t first = 0;   ///< its landings in ParticleMap::landings()
-    std::size_t landings = 0;
+/// What ParticleMap::update() did.
+struct ParticleUpdate {
+    bool complete = false;       ///< false: stopped, or `fits` is false; the map is as it was
+    bool fits = true;            ///< false: the sources are others than those of the links, which only a new map can know
+    std::uint64_t particles = 0; ///< traced again
+    double share = 0.0;          ///< of all
+    std::uint64_t landings = 0;  ///< taken away, put in or replaced by others
+    std::uint32_t links = 0;     ///< with particles that were traced again
+    std::uint32_t re_aimed = 0;  ///< of these: traced again as a whole, since their source or target moved
+    std::vector<std::uint32_t> surfaces; ///< that moved, or whose landings or their power are others now, ascending
+    double find_seconds = 0.0;           ///< for what is touched
+    double trace_seconds = 0.0;
+    double store_seconds = 0.0;
 };
 
-/// Immutable once built.
+/// The same for any number of threads. Changed by update() and retrace() only.
 class ParticleMap {
 public:
     /// Traces everything, on all cores; the same for any number of them. `by_image`: see trace_particle(). Where no source
@@ -33,7 +40,20 @@ public:
     ParticleMap(const RayScene& rays, const SpecularTargets& targets, const DirectLight& direct, const Hierarchy& emitters,
                 const CarriedByImage& by_image, const ParticleSettings& settings, const RunContext& context);
 
+    /// Traces again what the change of `boxes` (bounds of what moved before and after, engine coordinates) touches: the
+    /// scene has everything in its new place already, its targets have followed (SpecularTargets::follow), and `moved` are
+    /// the surfaces that moved. Links keep their counts; those whose source or target moved are aimed anew and traced as a
+    /// whole. Landings are then what retrace() would find, to the last bit. Needs ParticleSettings::keep_paths. When stopped
+    /// by the context the map stays as it was.
+    ParticleUpdate update(const ParticleScene& scene, std::span<const Box3> boxes, std::span<const std::uint32_t> moved,
+                          const RunContext& context);
+    /// Traces all particles of the same links anew: what update() is measured against. False where update() would not fit or
+    /// the context stopped; the map is then as it was.
+    bool retrace(const ParticleScene& scene, const RunContext& context);
+
     [[nodiscard]] bool complete() const { return complete_; }
+    [[nodiscard]] bool keeps_paths() const { return paths_.has_value(); }
+    [[nodiscard]] const ParticlePaths& paths() const { return *paths_; } ///< of all particles, link by link
     [[nodiscard]] const std::vector<ParticleSource>& sources() const { return sources_; }
     [[nodiscard]] const std::vector<ParticleLink>& links() const { return links_; }  ///< only such as light something
     [[nodiscard]] const std::vector<Landing>& landings() const { return landings_; } ///< link by link, in stream order
@@ -46,12 +66,27 @@ public:
     [[nodiscard]] std::size_t memory_bytes() const;
 
 private:
+    struct Change; // see particle_update.cpp
+    // Links whose particles start or are aimed otherwise now, as marks.
+    [[nodiscard]] std::vector<std::uint8_t> re_aimed(const ParticleScene& scene, const std::vector<ParticleSource>& sources,
+                                                     std::span<const std::uint32_t> moved) const;
+    [[nodiscard]] std::vector<std::uint32_t> touched(std::span<const Box3> boxes, float reach,
+                                                     const std::vector<std::uint8_t>& whole) const;
+    [[nodiscard]] std::vector<Change> compare(const std::vector<std::uint32_t>& particles,
+                                              const std::vector<ParticleBatch>& batches) const;
+    void replace(const std::vector<Change>& changes);
+    void store(std::vector<ParticleBatch>&& batches);
+    void count_landings();
+    void sum_energy();
+
     bool complete_ = false;
     std::vector<ParticleSource> sources_;
     std::vector<ParticleLink> links_;
     std::vector<Landing> landings_;
     std::uint64_t emitted_ = 0;
     ParticleEnergy energy_;
+    std::optional<ParticlePaths> paths_;
+    std::vector<ParticleShares> shares_; ///< with paths: of every particle, so that their sum does not depend on the past
 };
 
 } // namespace atrium

@@ -22,6 +22,7 @@ struct Landing {
     std::uint32_t index = 0; ///< in the link's stream
     std::uint16_t bends = 0;
     bool back = false; ///< on the back side
+    friend bool operator==(const Landing&, const Landing&) = default;
 };
 
 /// Where the power of particles went, luminance, lumen. Every particle that met its target counts as emitted, so emitted =

@@ -85,4 +85,20 @@ SpecularTargets::SpecularTargets(const RayScene& rays) : of_triangle_(rays.surfa
     }
 }
 
+void SpecularTargets::follow(const RayScene& rays, std::span<const std::uint32_t> moved_surfaces) {
+    for (const std::uint32_t s : moved_surfaces) {
+        if (of_triangle_[s].empty()) {
+            continue;
+        }
+        for (SpecularTarget& t : targets_) {
+            t.bounds = t.surface == s ? Box3{} : t.bounds;
+        }
+        for (std::uint32_t i = 0; i < of_triangle_[s].size(); ++i) {
+            for (const vec3& v : rays.triangle(s, i)) {
+                targets_[of_triangle_[s][i]].bounds.add(v);
+            }
+        }
+    }
+}
+
 } // namespace atrium

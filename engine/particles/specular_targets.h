@@ -15,11 +15,14 @@ struct SpecularTarget {
     std::uint32_t piece = 0;   ///< among the surface's targets
 };
 
-/// Immutable once built; safe from any thread. Empty (and without memory) where nothing is specular.
+/// Every query is safe from any thread. Empty (and without memory) where nothing is specular.
 class SpecularTargets {
 public:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
     explicit SpecularTargets(const RayScene& rays);
+
+    /// Gives the pieces of surfaces that moved their new bounds; what triangles they are of stays.
+    void follow(const RayScene& rays, std::span<const std::uint32_t> moved_surfaces);
 
     [[nodiscard]] bool empty() const { return targets_.empty(); }
     [[nodiscard]] const std::vector<SpecularTarget>& targets() const { return targets_; }

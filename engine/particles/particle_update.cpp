@@ -1,0 +1,233 @@
+// ParticleMap: what an edit touches is traced again, the rest stays.
+#include "engine/base/checks.h"
+#include "engine/particles/particle_map.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace atrium {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point& start) {
+    const auto now = std::chrono::steady_clock::now();
+    const double out = std::chrono::duration<double>(now - start).count();
+    start = now;
+    return out;
+}
+
+std::vector<ParticleSource> sources_of(const ParticleScene& scene) {
+    return scene.targets.empty() ? std::vector<ParticleSource>{}
+                                 : particle_sources(scene.direct, scene.emitters, scene.rays);
+}
+
+// Links belong to what sends and what is aimed at: there must be as many sources as before, of the same names.
+bool same_sources(const std::vector<ParticleSource>& a, const std::vector<ParticleSource>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const ParticleSource& x, const ParticleSource& y) { return x.key == y.key; });
+}
+
+bool contains(std::span<const std::uint32_t> list, std::uint32_t value) {
+    return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+void mark(std::span<const Landing> landings, std::vector<std::uint8_t>& surfaces) {
+    for (const Landing& l : landings) {
+        surfaces[l.surface] = 1;
+    }
+}
+
+std::vector<std::uint32_t> marked(const std::vector<std::uint8_t>& marks) {
+    std::vector<std::uint32_t> out;
+    for (std::uint32_t i = 0; i < marks.size(); ++i) {
+        if (marks[i] != 0) {
+            out.push_back(i);
+        }
+    }
+    return out;
+}
+
+} // namespace
+
+/// A run [first, first + count) of the landings that others take the place of.
+struct ParticleMap::Change {
+    std::size_t first = 0;
+    std::size_t count = 0;
+    std::span<const Landing> now;
+};
+
+std::vector<std::uint8_t> ParticleMap::re_aimed(const ParticleScene& scene, const std::vector<ParticleSource>& sources,
+                                                std::span<const std::uint32_t> moved) const {
+    std::vector<std::uint8_t> out(links_.size(), 0);
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+        const ParticleLink& l = links_[i];
+        const SpecularTarget& target = scene.targets.targets()[l.target];
+        const ParticleSource& source = sources[l.source];
+        const bool same = target.bounds.min == l.aimed_at.min && target.bounds.max == l.aimed_at.max &&
+                          sends_alike(sources_[l.source], source) && !contains(moved, target.surface) &&
+                          (source.leaves.empty() || !contains(moved, source.surface));
+        out[i] = same ? 0 : 1;
+    }
+    return out;
+}
+
+std::vector<std::uint32_t> ParticleMap::touched(std::span<const Box3> boxes, float reach,
+                                                const std::vector<std::uint8_t>& whole) const {
+    std::vector<std::uint8_t> marks(shares_.size(), 0);
+    paths_->mark_crossing(boxes, reach, marks);
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+        if (whole[i] != 0) {
+            std::fill_n(marks.begin() + std::ptrdiff_t(links_[i].first_particle), links_[i].count, std::uint8_t(1));
+        }
+    }
+    return marked(marks);
+}
+
+// What is other than before: particles that were touched for nothing leave no change.
+std::vector<ParticleMap::Change> ParticleMap::compare(const std::vector<std::uint32_t>& particles,
+                                                      const std::vector<ParticleBatch>& batches) const {
+    std::vector<Change> out;
+    std::size_t k = 0, link = 0, at = 0;
+    for (const ParticleBatch& b : batches) {
+        std::size_t from = 0;
+        for (const std::uint32_t count : b.landing_count) {
+            const std::uint32_t particle = particles[k++];
+            while (particle >= links_[link].first_particle + links_[link].count) {
+                ++link;
+            }
+            const auto index = std::uint32_t(particle - links_[link].first_particle);
+            const auto before = [&](const Landing& l, const std::pair<std::size_t, std::uint32_t>& key) {
+                return l.link != key.first ? l.link < key.first : l.index < key.second;
+            };
+            at = std::size_t(
+                std::lower_bound(landings_.begin() + std::ptrdiff_t(at), landings_.end(), std::pair(link, index), before) -
+                landings_.begin());
+            Change c{at, 0, std::span(b.landings).subspan(from, count)};
+            while (at < landings_.size() && landings_[at].link == link && landings_[at].index == index) {
+                ++at;
+            }
+            c.count = at - c.first;
+            if (!std::equal(c.now.begin(), c.now.end(), landings_.begin() + std::ptrdiff_t(c.first),
+                            landings_.begin() + std::ptrdiff_t(at))) {
+                out.push_back(c);
+            }
+            from += count;
+        }
+    }
+    return out;
+}
+
+void ParticleMap::replace(const std::vector<Change>& changes) {
+    const bool in_place =
+        std::all_of(changes.begin(), changes.end(), [](const Change& c) { return c.count == c.now.size(); });
+    if (in_place) {
+        for (const Change& c : changes) {
+            std::copy(c.now.begin(), c.now.end(), landings_.begin() + std::ptrdiff_t(c.first));
+        }
+        return;
+    }
+    std::size_t size = landings_.size();
+    for (const Change& c : changes) {
+        size += c.now.size() - c.count;
+    }
+    std::vector<Landing> out;
+    out.reserve(size);
+    std::size_t at = 0;
+    for (const Change& c : changes) {
+        out.insert(out.end(), landings_.begin() + std::ptrdiff_t(at), landings_.begin() + std::ptrdiff_t(c.first));
+        out.insert(out.end(), c.now.begin(), c.now.end());
+        at = c.first + c.count;
+    }
+    out.insert(out.end(), landings_.begin() + std::ptrdiff_t(at), landings_.end());
+    landings_ = std::move(out);
+    count_landings();
+}
+
+ParticleUpdate ParticleMap::update(const ParticleScene& scene, std::span<const Box3> boxes,
+                                   std::span<const std::uint32_t> moved, const RunContext& context) {
+    ATRIUM_CHECK(complete_ && (links_.empty() || paths_));
+    ParticleUpdate out;
+    auto clock = std::chrono::steady_clock::now();
+    std::vector<ParticleSource> sources = sources_of(scene);
+    out.fits = same_sources(sources_, sources);
+    if (links_.empty() || !out.fits) {
+        out.complete = out.fits;
+        return out;
+    }
+    const std::vector<std::uint8_t> whole = re_aimed(scene, sources, moved);
+    const std::vector<std::uint32_t> particles = touched(boxes, scene_reach(scene.rays), whole);
+    std::vector<ParticleLink> links = links_;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+        if (whole[i] != 0) {
+            links[i].aimed_at = scene.targets.targets()[links[i].target].bounds;
+            links[i].aim = make_aim(sources[links[i].source], scene.targets.targets()[links[i].target]);
+        }
+    }
+    out.find_seconds = seconds_since(clock);
+    const std::vector<ParticleBatch> batches = trace_batches(scene, sources, links, &particles, true, context);
+    out.trace_seconds = seconds_since(clock);
+    if (context.should_stop()) {
+        return out;
+    }
+    std::vector<std::uint8_t> surfaces(scene.rays.surfaces().size(), 0);
+    const std::vector<Change> changes = compare(particles, batches);
+    for (const Change& c : changes) {
+        mark(std::span(landings_).subspan(c.first, c.count), surfaces);
+        mark(c.now, surfaces);
+        out.landings += std::max(c.count, c.now.size());
+    }
+    for (const std::uint32_t s : moved) {
+        surfaces[s] = 1;
+    }
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < links.size(); ++i) { // brightness is no part of a landing
+        const ParticleLink& l = links[i];
+        if (sources[l.source].radiance != sources_[l.source].radiance) {
+            mark(std::span(landings_).subspan(l.first, l.landings), surfaces);
+        }
+        const std::size_t before = k;
+        while (k < particles.size() && particles[k] < l.first_particle + l.count) {
+            ++k;
+        }
+        out.links += k > before ? 1 : 0;
+        out.re_aimed += whole[i];
+    }
+    links_ = std::move(links);
+    sources_ = std::move(sources);
+    replace(changes);
+    k = 0;
+    for (const ParticleBatch& b : batches) {
+        std::size_t vertex = 0;
+        for (std::size_t i = 0; i < b.vertex_count.size(); ++i, ++k) {
+            paths_->set(particles[k], std::span(b.vertices).subspan(vertex, b.vertex_count[i]));
+            shares_[particles[k]] = b.shares[i];
+            vertex += b.vertex_count[i];
+        }
+    }
+    paths_->compact();
+    sum_energy();
+    out.surfaces = marked(surfaces);
+    out.particles = particles.size();
+    out.share = shares_.empty() ? 0.0 : double(particles.size()) / double(shares_.size());
+    out.complete = true;
+    out.store_seconds = seconds_since(clock);
+    return out;
+}
+
+bool ParticleMap::retrace(const ParticleScene& scene, const RunContext& context) {
+    std::vector<ParticleSource> sources = sources_of(scene);
+    if (!complete_ || !same_sources(sources_, sources)) {
+        return false;
+    }
+    std::vector<ParticleLink> links = links_;
+    prepare_links(links, sources, scene.targets);
+    std::vector<ParticleBatch> batches = trace_batches(scene, sources, links, nullptr, paths_.has_value(), context);
+    if (context.should_stop()) {
+        return false;
+    }
+    links_ = std::move(links);
+    sources_ = std::move(sources);
+    store(std::move(batches));
+    return true;
+}
+
+} // namespace atrium
