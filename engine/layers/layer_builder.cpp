@@ -413,6 +413,7 @@ private:
         LayerSet out;
         double error = 0.0, area_sum = 0.0, log_sum = 0.0, log_area = 0.0;
         out.surfaces.resize(rays_.surfaces().size());
+        out.places.resize(settings_.keep_places ? out.surfaces.size() : 0);
         for (NodeMesh& mesh : meshes_) {
             fill_covered(mesh, &LightVertex::front_covered, &LightVertex::front);
             fill_covered(mesh, &LightVertex::back_covered, &LightVertex::back);
@@ -452,6 +453,9 @@ private:
                         const auto [it, fresh] = index.try_emplace(key, std::uint32_t(display->positions.size()));
                         if (fresh) {
                             add_output(*display, *layer, data, vertex, charted);
+                            if (settings_.keep_places) {
+                                add_places(out.places[s], vertex);
+                            }
                         }
                         display->indices.push_back(it->second);
                         const double w = area / 3.0;
@@ -480,14 +484,34 @@ private:
                     }
                 }
                 out.vertices += display->positions.size();
+                if (settings_.keep_places) {
+                    out.places[s].surface = s;
+                }
                 layer->mesh = std::move(display);
                 out.surfaces[s] = std::move(layer);
             }
         }
+        std::size_t kept = 0;
+        for (std::size_t s = 0; s < out.places.size(); ++s) {
+            if (out.surfaces[s]) {
+                std::swap(out.places[kept++], out.places[s]);
+            }
+        }
+        out.places.resize(kept);
         std::erase(out.surfaces, nullptr);
         out.error_estimate = area_sum > 0.0 ? std::sqrt(error / area_sum) : 0.0;
         out.mean_radiance = log_area > 0.0 ? std::exp(log_sum / log_area) : 0.0;
         return out;
+    }
+
+    void add_places(VertexPlaces& places, const LightVertex& v) const {
+        const auto place = [&](const vec3& n, bool covered) {
+            return v.unlit || covered || v.charted() ? SurfacePoint{} : SurfacePoint{sample_position(v, n), n};
+        };
+        places.front.push_back(place(v.normal, v.front_covered));
+        if (v.wants_back) {
+            places.back.push_back(place(-v.normal, v.back_covered));
+        }
     }
 
     static void add_output(DisplayMesh& display, SurfaceLayer& layer, const MeshData& data, const LightVertex& v,

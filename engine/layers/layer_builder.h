@@ -20,6 +20,7 @@ struct LayerSettings {
     float contrast = 0.08F;             ///< relative deviation of a midpoint from its ends' mean that asks for a split
     float light_floor = 1.0F;           ///< lux: differences are judged against at least this irradiance
     float cover_reach = 0.01F;          ///< metres within which all ways out must be shut where something rests on a surface
+    bool keep_places = false;           ///< LayerSet::places is wanted
     std::size_t max_vertices = 600'000; ///< added vertices at most; the strongest contrasts first
 };
 
@@ -38,11 +39,20 @@ struct LightMaps {
     std::span<const std::shared_ptr<const LightMap>> back;
 };
 
+/// Where the vertices of a surface's layer took their direct light, for who wants to look again. Engine coordinates; a zero
+/// normal marks vertices that have none of their own (charted, covered, mirrors).
+struct VertexPlaces {
+    std::uint32_t surface = 0; ///< of RayScene::surfaces()
+    std::vector<SurfacePoint> front;
+    std::vector<SurfacePoint> back; ///< empty without a back side
+};
+
 /// What build_layers() makes.
 struct LayerSet {
     std::vector<std::shared_ptr<const SurfaceLayer>> surfaces;
-    double error_estimate = 0.0; ///< area-weighted RMS of the vertices' relative standard errors
-    double mean_radiance = 0.0;  ///< log-average of reflected radiance, cd/m2
+    std::vector<VertexPlaces> places; ///< per entry of `surfaces`; empty unless LayerSettings::keep_places
+    double error_estimate = 0.0;      ///< area-weighted RMS of the vertices' relative standard errors
+    double mean_radiance = 0.0;       ///< log-average of reflected radiance, cd/m2
     std::size_t vertices = 0;
     bool complete = false; ///< false when the context asked to stop
     [[nodiscard]] std::size_t memory_bytes() const;

@@ -160,8 +160,7 @@ void stitch(const SheetPlace& s, LightMap& map, std::uint32_t u, std::uint32_t v
 
 } // namespace
 
-std::vector<std::pair<std::uint32_t, LightNode>> fill_unknown_nodes(LightCells& cells,
-                                                                    std::span<const SheetPlace> sheets) {
+std::vector<std::pair<std::uint32_t, LightNode>> fill_unknown_nodes(LightCells& cells, std::span<const SheetPlace> sheets) {
     std::vector<OpenCell> covered, away;
     std::vector<LightCell> leaves;
     for (const SheetPlace& s : sheets) {

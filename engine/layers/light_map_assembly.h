@@ -19,10 +19,9 @@ struct SheetPlace {
 };
 
 /// Gives nodes that are covered, and then those away from the surface, the mean of their neighbours, outwards from known
-/// ones. Nodes that no known one is connected with stay as they are: wholly enclosed, dark, seen by nobody. Returns what they were before, for who wants to look
-/// at the cells again.
-std::vector<std::pair<std::uint32_t, LightNode>> fill_unknown_nodes(LightCells& cells,
-                                                                    std::span<const SheetPlace> sheets);
+/// ones. Nodes that no known one is connected with stay as they are: wholly enclosed, dark, seen by nobody. Returns what
+/// they were before, for who wants to look at the cells again.
+std::vector<std::pair<std::uint32_t, LightNode>> fill_unknown_nodes(LightCells& cells, std::span<const SheetPlace> sheets);
 
 /// The light map of one side of a surface from the sheets of its charts, the sum of `parts`, which have the same sheets;
 /// chart space of width * height tiles. Tiles that meet agree along their common edge, whatever their levels. `context` may

@@ -91,9 +91,9 @@ private:
     const DirectMapSettings& settings_;
     TileBudget& budget_;
     const RunContext* context_; ///< of the call at hand
-    float contrast_;           ///< of this part: error of the interpolation that asks for finer cells
-    std::vector<float> floor_; ///< lux, per sheet: errors are judged against at least this
-    unsigned finest_;          ///< level below which this part's cells are not divided
+    float contrast_;            ///< of this part: error of the interpolation that asks for finer cells
+    std::vector<float> floor_;  ///< lux, per sheet: errors are judged against at least this
+    unsigned finest_;           ///< level below which this part's cells are not divided
     LightCells cells_;
     std::vector<std::size_t> first_probe_; ///< per sheet; a probe per cell of the first level, row by row
     std::vector<Probe> probes_;

@@ -11,8 +11,8 @@ constexpr std::size_t kSunScouts = 8; // rays towards the sun that may stand for
 
 } // namespace
 
-DirectLight::DirectLight(const Scene& scene, const RayScene& rays, const RunContext& context)
-    : rays_(rays), sky_(scene.environment.sky_radiance, rays, context) {
+std::vector<PlacedLight> placed_lights(const Scene& scene, const dvec3& origin) {
+    std::vector<PlacedLight> out;
     for (const NodeId id : scene.in_tree_order()) {
         const Node& node = *scene.nodes.find(id);
         const Light* light = scene.lights.find(node.light);
@@ -23,10 +23,13 @@ DirectLight::DirectLight(const Scene& scene, const RayScene& rays, const RunCont
         const dmat4 world = scene.world_matrix(id);
         const dvec3 axis = -dvec3(world[2]);
         const double length = glm::length(axis);
-        lights_.push_back(
-            {*light, id, vec3(dvec3(world[3]) - rays.origin()), length > 0.0 ? vec3(axis / length) : vec3(0, 0, -1)});
+        out.push_back({*light, id, vec3(dvec3(world[3]) - origin), length > 0.0 ? vec3(axis / length) : vec3(0, 0, -1)});
     }
+    return out;
 }
+
+DirectLight::DirectLight(const Scene& scene, const RayScene& rays, const RunContext& context)
+    : rays_(rays), lights_(placed_lights(scene, rays.origin())), sky_(scene.environment.sky_radiance, rays, context) {}
 
 DirectSample DirectLight::irradiance(const vec3& point, const vec3& normal, unsigned sun_rays, unsigned sky_rays) const {
     DirectSample out = lamps_irradiance(point, normal, sun_rays);

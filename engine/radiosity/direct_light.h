@@ -16,6 +16,9 @@ struct PlacedLight {
     vec3 axis{0.0F, 0.0F, -1.0F}; ///< unit, the way it shines
 };
 
+/// The enabled lights of a scene with the world position of engine (0,0,0), in tree order.
+std::vector<PlacedLight> placed_lights(const Scene& scene, const dvec3& origin);
+
 /// Immutable; safe from any thread.
 class DirectLight {
 public:

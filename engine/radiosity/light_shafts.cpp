@@ -48,8 +48,7 @@ Box3 mirrored(const Box3& box, const PlanarMirror& mirror) {
 } // namespace
 
 bool shaft_to_sun_touches(const vec3& point, const vec3& direction, float spread, const Box3& box) {
-    return crosses(point, direction, std::numeric_limits<float>::infinity(), box,
-                   kRounding + spread * farthest(point, box));
+    return crosses(point, direction, std::numeric_limits<float>::infinity(), box, kRounding + spread * farthest(point, box));
 }
 
 bool shaft_to_ball_touches(const vec3& point, const vec3& centre, float radius, const Box3& box) {

@@ -19,6 +19,10 @@ struct SolveOptions {
     std::uint64_t revision = 0;
     bool paper_mode = false;     ///< the algorithms of 2001 where ours differ
     std::uint32_t particles = 0; ///< emitted at most; 0 = what the quality stands for
+    /// update() will follow: the complete solution keeps what that needs, and stays in place until the next is complete.
+    bool keep_for_updates = false;
+    /// Light is on show that is better than a first, coarse picture: none is made.
+    bool skip_first_picture = false;
 };
 
 /// Irradiance at a free sensor, lux, with the program's own estimate of its standard error.
@@ -43,6 +47,16 @@ public:
     Result<std::shared_ptr<const Solution>>
     solve(const Scene& scene, const SolveOptions& options, const RunContext& context,
           const std::function<void(std::shared_ptr<const Solution>)>& on_snapshot = {});
+
+    /// Light after objects moved, in a hurry: direct light and caustics are looked at again where the change reaches,
+    /// starting from the last complete solution (of a solve with keep_for_updates) and the updates since; reflected light
+    /// stays as it is but for what moved. Marked in Solution::statistics.update. An error where more than placements
+    /// changed, lamps or windows moved, or there is no complete solution: then only solve() helps. Stopped by the context:
+    /// an error too; what was left undone is remembered and done by the next update.
+    Result<std::shared_ptr<const Solution>> update(const Scene& scene, const SolveOptions& options,
+                                                   const RunContext& context);
+    /// A complete solution is there for update() to start from.
+    [[nodiscard]] bool can_update() const;
 
     /// Irradiance on a virtual sensor at a world point with unit normal, from the hierarchy of the last solve.
     [[nodiscard]] SensorReading gather_free(const dvec3& point, const dvec3& normal) const;

@@ -1,0 +1,223 @@
+// Light that follows the hand: what GiEngine does while objects move.
+#include "engine/solver/gi_engine_impl.h"
+
+#include <chrono>
+
+namespace atrium {
+namespace {
+
+constexpr std::size_t kMostBoxes = 8; // that are looked at singly
+
+// Bounds before and after of what moved; of very many surfaces those of all together.
+std::vector<Box3> boxes_of(std::span<const MovedSurface> moved) {
+    std::vector<Box3> out;
+    Box3 before, after;
+    for (const MovedSurface& m : moved) {
+        before.add(m.before);
+        after.add(m.after);
+        out.push_back(m.before);
+        out.push_back(m.after);
+    }
+    if (out.size() > kMostBoxes) {
+        out = {before, after};
+    }
+    return out;
+}
+
+// Charts go with their surface; their coordinates and tiles stay. False where it was stretched.
+bool follow(SurfaceCharts& charts, const dmat4& motion) {
+    for (Chart& c : charts.charts) {
+        const dvec3 u = dmat3(motion) * dvec3(c.axis_u), v = dmat3(motion) * dvec3(c.axis_v);
+        constexpr double kStretch = 1e-4;
+        if (c.planar && (std::abs(glm::length(u) - 1.0) > kStretch || std::abs(glm::length(v) - 1.0) > kStretch ||
+                         std::abs(glm::dot(u, v)) > kStretch)) {
+            return false;
+        }
+    }
+    for (Chart& c : charts.charts) {
+        if (c.planar) {
+            c.origin = vec3(dvec3(motion * dvec4(dvec3(c.origin), 1.0)));
+            c.axis_u = vec3(glm::normalize(dmat3(motion) * dvec3(c.axis_u)));
+            c.axis_v = vec3(glm::normalize(dmat3(motion) * dvec3(c.axis_v)));
+            c.normal = glm::normalize(glm::cross(c.axis_u, c.axis_v));
+        }
+    }
+    return true;
+}
+
+void follow(std::vector<SurfacePoint>& places, const dmat4& motion) {
+    const dmat3 turn = glm::transpose(glm::inverse(dmat3(motion)));
+    for (SurfacePoint& p : places) {
+        if (p.normal != vec3(0.0F)) {
+            p.position = vec3(dvec3(motion * dvec4(dvec3(p.position), 1.0)));
+            p.normal = vec3(glm::normalize(turn * dvec3(p.normal)));
+        }
+    }
+}
+
+bool same_lamps(const std::vector<PlacedLight>& a, const std::vector<PlacedLight>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const PlacedLight& x, const PlacedLight& y) {
+        return x.light == y.light && x.node == y.node && x.position == y.position && x.axis == y.axis;
+    });
+}
+
+} // namespace
+
+bool GiEngine::can_update() const { return impl_->live != nullptr; }
+
+Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, const SolveOptions& options,
+                                                         const RunContext& context) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    const auto seconds_since_start = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    const auto give_up = [&](const char* why) {
+        impl_->live.reset(); // half of it may have followed already
+        return fail("", "", why, "A whole new solution answers");
+    };
+    Impl& s = *impl_;
+    if (!s.live) {
+        return fail("", "", "there is no complete light to start from", "Solve first");
+    }
+    if (s.hierarchy.empty()) {
+        return give_up("nothing is lit");
+    }
+    Impl::Live& live = *s.live;
+    if (!same_lamps(placed_lights(scene, s.rays->origin()), s.punctual->lights()) ||
+        scene.environment.sky_radiance != s.sky_radiance) {
+        return give_up("lamps changed");
+    }
+    context.progress("ray_scene", 0.0);
+    const auto moved = s.rays->move_to(scene);
+    if (!moved) {
+        return give_up("more than places changed");
+    }
+    LightChange& change = live.owed;
+    change.moved.resize(s.rays->surfaces().size(), 0);
+    const std::vector<Box3> boxes = boxes_of(*moved);
+    change.boxes.insert(change.boxes.end(), boxes.begin(), boxes.end());
+    std::vector<std::uint32_t> moved_surfaces;
+    bool mirror_moved = false;
+    for (const MovedSurface& m : *moved) {
+        const RaySurface& surface = s.rays->surfaces()[m.surface];
+        const Material& material = s.rays->material(m.surface);
+        if (max_component(material.emissive) > 0.0F || surface.pane) {
+            return give_up("a lamp or a window moved");
+        }
+        const dmat4 motion = surface.to_engine * glm::inverse(live.placement[m.surface]);
+        live.placement[m.surface] = surface.to_engine;
+        if (!follow(s.charts[m.surface], motion)) {
+            return give_up("something was stretched");
+        }
+        for (VertexPlaces& places : live.layers.places) {
+            if (places.surface == m.surface) {
+                follow(places.front, motion);
+                follow(places.back, motion);
+            }
+        }
+        change.moved[m.surface] = 1;
+        moved_surfaces.push_back(m.surface);
+        mirror_moved = mirror_moved || is_specular(material);
+    }
+    if (mirror_moved && s.mirrors) {
+        s.mirrors = std::make_unique<MirrorLight>(*s.rays);
+        s.find_shafts();
+    }
+    auto solution = std::make_shared<Solution>(*live.shown);
+    UpdateStatistics& report = solution->statistics.update;
+    report = {};
+    report.degraded = true;
+
+    context.progress("direct", 0.1);
+    RepairReport repaired;
+    repaired.complete = true;
+    if (live.maps) {
+        repaired = live.maps->repair(change, s.maps, context);
+    }
+    if (!repaired.complete) {
+        return fail("", "", "stopped before the light had followed", "The next update goes on");
+    }
+    ParticleUpdate particles;
+    if (s.particles) {
+        context.progress("particles", 0.6);
+        s.targets->follow(*s.rays, moved_surfaces);
+        const ParticleScene particle_scene{*s.rays, *s.targets, *s.punctual, s.emitters,
+                                           [&s](const Hit& hit) { return s.mirrors && s.mirrors->carries(hit); }};
+        particles = s.particles->update(particle_scene, change.boxes, moved_surfaces, context);
+        if (!particles.fits) {
+            return give_up("the sources of caustics changed");
+        }
+        if (!particles.complete) {
+            return fail("", "", "stopped before the light had followed", "The next update goes on");
+        }
+        report.particles_traced = particles.particles;
+        report.particles_share = particles.share;
+        report.links_visited = s.particles->links().size();
+        report.links_changed = particles.links;
+        const CausticReuse reuse{s.caustics, particles.surfaces};
+        s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse);
+    }
+
+    context.progress("layers", 0.8);
+    std::vector<std::uint8_t> new_map(s.rays->surfaces().size(), 0);
+    for (const std::uint32_t surface : repaired.surfaces) {
+        new_map[surface] = 1;
+    }
+    std::vector<std::uint8_t> told(live.layers.surfaces.size(), 0);
+    for (std::size_t i = 0; i < live.layers.surfaces.size(); ++i) {
+        const VertexPlaces& places = live.layers.places[i];
+        const auto look_again = [&](const std::vector<SurfacePoint>& points, const std::vector<Rgb>& before) {
+            std::vector<Rgb> light = before;
+            light.resize(points.size(), Rgb(0.0F));
+            std::atomic<bool> any = false;
+            parallel_chunks(points.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
+                for (std::size_t k = begin; k < end && !context.should_stop(); ++k) {
+                    const SurfacePoint& p = points[k];
+                    if (p.normal != vec3(0.0F) &&
+                        (change.moved[places.surface] != 0 ||
+                         std::any_of(change.boxes.begin(), change.boxes.end(),
+                                     [&](const Box3& box) { return s.direct_light_touched(p.position, box); }))) {
+                        light[k] = s.direct_light(p.position, p.normal, s.field.direct).irradiance;
+                        any.store(true, std::memory_order_relaxed);
+                    }
+                }
+            });
+            const bool dark = std::all_of(light.begin(), light.end(), [](const Rgb& e) { return e == Rgb(0.0F); });
+            return any ? std::optional(dark ? std::vector<Rgb>{} : std::move(light)) : std::nullopt;
+        };
+        const SurfaceLayer& old = *live.layers.surfaces[i];
+        auto front = look_again(places.front, old.direct_front);
+        auto back = look_again(places.back, old.direct_back);
+        if (!front && !back && new_map[places.surface] == 0) {
+            continue;
+        }
+        auto layer = std::make_shared<SurfaceLayer>(old);
+        if (front) {
+            layer->direct_front = std::move(*front);
+        }
+        if (back) {
+            layer->direct_back = std::move(*back);
+        }
+        if (!s.charts[places.surface].empty()) {
+            layer->direct_map_front = s.maps.front[places.surface];
+            layer->direct_map_back = s.maps.back[places.surface];
+        }
+        live.layers.surfaces[i] = std::move(layer);
+    }
+    if (context.should_stop()) {
+        return fail("", "", "stopped before the light had followed", "The next update goes on");
+    }
+    if (s.particles) {
+        attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics);
+    }
+    change = {};
+    solution->revision = options.revision;
+    solution->final = false;
+    solution->surfaces = live.layers.surfaces;
+    solution->caustic_records = s.caustics.records;
+    solution->statistics.converged = false;
+    solution->statistics.time.solve = seconds_since_start();
+    solution->statistics.time.total = solution->statistics.time.solve;
+    return std::shared_ptr<const Solution>(solution);
+}
+
+} // namespace atrium
