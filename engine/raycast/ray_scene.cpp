@@ -55,9 +55,40 @@ void on_embree_error(void*, RTCError, const char* message) { std::fprintf(stderr
 } // namespace
 
 struct RayScene::Impl {
+    // A shown node with a shape; its surfaces are neighbours.
+    struct Placed {
+        NodeId node;
+        std::shared_ptr<const MeshData> mesh;
+        dmat4 to_engine{1.0};
+        DBox3 world; // Scene::world_bounds
+        std::uint32_t first_surface = 0;
+        std::uint32_t surfaces = 0;
+    };
+    // Whether a mesh is a solid whose insides stay dark is told by the first node that shows it, with its size.
+    struct Inside {
+        std::size_t placed = 0;
+        std::shared_ptr<const MeshData> mesh;
+        bool small = false;
+    };
+    struct Changes {
+        std::vector<NodeId> nodes;       // placed anew themselves, whatever they are
+        std::vector<std::size_t> placed; // they and what is below them, into `placed`
+    };
+    // What a node's new placement makes of it, before anything is changed.
+    struct Replaced {
+        std::size_t placed = 0;
+        DBox3 world;
+        dmat4 to_engine{1.0};
+        std::vector<RaySurface> surfaces; // none: they stay as they are
+        std::vector<Box3> bounds;
+    };
+
     Scene scene;
     std::vector<RaySurface> surfaces;
     std::vector<const Material*> materials; // per surface, into `scene`
+    std::vector<Box3> surface_bounds;
+    std::vector<Placed> placed; // in tree order
+    std::vector<Inside> insides;
     std::vector<Counter> counters = std::vector<Counter>(16);
     RTCDevice device = nullptr;
     RTCScene embree = nullptr;
@@ -98,6 +129,7 @@ struct RayScene::Impl {
             }
             add_node(id, node, *shape, mesh, closed);
         }
+        any_filter = any_surface_filters();
     }
 
     // Lenses and curved mirrors need their shape closer than what is matt: light that they focus shows every facet.
@@ -112,13 +144,9 @@ struct RayScene::Impl {
 
     void add_node(NodeId id, const Node& node, const Shape& shape, const std::shared_ptr<const MeshData>& mesh,
                   std::map<const MeshData*, bool>& closed) {
-        dmat4 to_engine = scene.world_matrix(id);
-        to_engine[3] -= dvec4(origin, 0.0);
-        const double determinant = glm::determinant(dmat3(to_engine));
-        auto positions = std::make_shared<std::vector<vec3>>(mesh->positions.size());
-        for (std::size_t i = 0; i < positions->size(); ++i) {
-            (*positions)[i] = vec3(dvec3(to_engine * dvec4(dvec3(mesh->positions[i]), 1.0)));
-        }
+        Placed place{id, mesh, scene.world_matrix(id), scene.world_bounds(id), std::uint32_t(surfaces.size())};
+        place.to_engine[3] -= dvec4(origin, 0.0);
+        const auto positions = positions_of(*mesh, place.to_engine);
         std::shared_ptr<const std::vector<vec2>> domain;
         if (std::vector<vec2> coordinates = curved_domain(shape.geometry, *mesh); !coordinates.empty()) {
             domain = std::make_shared<const std::vector<vec2>>(std::move(coordinates));
@@ -129,33 +157,14 @@ struct RayScene::Impl {
             surface.part = std::uint32_t(part);
             surface.material = part < node.materials.size() ? node.materials[part] : MaterialId{};
             surface.mesh = mesh;
-            surface.positions = positions;
             surface.domain = domain;
-            surface.to_engine = to_engine;
-            surface.mirrored = determinant < 0.0;
-            surface.normal_matrix = determinant != 0.0 ? glm::transpose(glm::inverse(dmat3(to_engine))) : dmat3(1.0);
-            const MeshPart& range = mesh->parts[part];
-            for (std::uint32_t i = range.first_index; i + 2 < range.first_index + range.index_count; i += 3) {
-                uvec3 t(mesh->indices[i], mesh->indices[i + 1], mesh->indices[i + 2]);
-                if (surface.mirrored) {
-                    std::swap(t.y, t.z);
-                }
-                const vec3& a = (*positions)[t.x];
-                const vec3& b = (*positions)[t.y];
-                const vec3& c = (*positions)[t.z];
-                const vec3 area = glm::cross(b - a, c - a);
-                if (!is_finite(a) || !is_finite(b) || !is_finite(c) || !(glm::dot(area, area) > 0.0F)) {
-                    ++dropped;
-                    continue;
-                }
-                surface.triangles.push_back(t);
-                bounds.add(a);
-                bounds.add(b);
-                bounds.add(c);
-            }
+            surface.positions = positions;
+            Box3 box;
+            dropped += place_surface(surface, place.to_engine, box);
             if (surface.triangles.empty()) {
                 continue;
             }
+            bounds.add(box);
             const Material* material = scene.materials.find(surface.material);
             material = material != nullptr ? material : &default_material();
             if (material->double_sided && !lets_light_through(*material)) {
@@ -163,21 +172,249 @@ struct RayScene::Impl {
                 if (first) {
                     // Solids' insides stay dark and cost nothing. Whatever is as large as a room may be one, seen from
                     // inside.
-                    const bool small = scene.world_bounds(id).diagonal() < 0.25 * extent;
-                    it->second = small && is_closed(*mesh) && signed_volume(*mesh) > 0.0;
+                    const bool small = is_small(place.world, extent);
+                    it->second = small && is_solid(*mesh);
+                    insides.push_back({placed.size(), mesh, small});
                 }
                 surface.back_side = !it->second;
             }
-            if (classify(*material) == MaterialKind::DielectricSolid && material->roughness < kMirrorRoughness) {
-                surface.slab_thickness = slab_thickness(surface);
-                surface.slab = surface.slab_thickness > 0.0F;
-            }
-            surface.pane = is_pane(surface, *material);
+            find_glass(surface, *material);
             triangles += surface.triangles.size();
             materials.push_back(material);
-            any_filter = any_filter || filters_light(*material, surface);
+            surface_bounds.push_back(box);
             surfaces.push_back(std::move(surface));
+            ++place.surfaces;
         }
+        placed.push_back(std::move(place));
+    }
+
+    static bool is_small(const DBox3& world, double extent) { return world.diagonal() < 0.25 * extent; }
+    static bool is_solid(const MeshData& mesh) { return is_closed(mesh) && signed_volume(mesh) > 0.0; }
+
+    static std::shared_ptr<const std::vector<vec3>> positions_of(const MeshData& mesh, const dmat4& to_engine) {
+        auto positions = std::make_shared<std::vector<vec3>>(mesh.positions.size());
+        for (std::size_t i = 0; i < positions->size(); ++i) {
+            (*positions)[i] = vec3(dvec3(to_engine * dvec4(dvec3(mesh.positions[i]), 1.0)));
+        }
+        return positions;
+    }
+
+    // Everything that follows from the placement alone; positions are there. Returns how many triangles are left out.
+    static std::size_t place_surface(RaySurface& surface, const dmat4& to_engine, Box3& box) {
+        const double determinant = glm::determinant(dmat3(to_engine));
+        surface.to_engine = to_engine;
+        surface.mirrored = determinant < 0.0;
+        surface.normal_matrix = determinant != 0.0 ? glm::transpose(glm::inverse(dmat3(to_engine))) : dmat3(1.0);
+        surface.triangles.clear();
+        std::size_t left_out = 0;
+        const MeshData& mesh = *surface.mesh;
+        const MeshPart& range = mesh.parts[surface.part];
+        for (std::uint32_t i = range.first_index; i + 2 < range.first_index + range.index_count; i += 3) {
+            uvec3 t(mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]);
+            if (surface.mirrored) {
+                std::swap(t.y, t.z);
+            }
+            const vec3& a = (*surface.positions)[t.x];
+            const vec3& b = (*surface.positions)[t.y];
+            const vec3& c = (*surface.positions)[t.z];
+            const vec3 area = glm::cross(b - a, c - a);
+            if (!is_finite(a) || !is_finite(b) || !is_finite(c) || !(glm::dot(area, area) > 0.0F)) {
+                ++left_out;
+                continue;
+            }
+            surface.triangles.push_back(t);
+            box.add(a);
+            box.add(b);
+            box.add(c);
+        }
+        return left_out;
+    }
+
+    static void find_glass(RaySurface& surface, const Material& material) {
+        surface.slab_thickness = 0.0F;
+        if (classify(material) == MaterialKind::DielectricSolid && material.roughness < kMirrorRoughness) {
+            surface.slab_thickness = slab_thickness(surface);
+        }
+        surface.slab = surface.slab_thickness > 0.0F;
+        surface.pane = is_pane(surface, material);
+    }
+
+    [[nodiscard]] bool any_surface_filters() const {
+        for (std::size_t i = 0; i < surfaces.size(); ++i) {
+            if (filters_light(*materials[i], surfaces[i])) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    // Walks the tree of `now` beside what was built. Nothing when more than placements differ.
+    [[nodiscard]] std::optional<Changes> find_changes(const Scene& now) const {
+        struct Entry {
+            NodeId id;
+            bool moved = false; // with an ancestor
+        };
+        std::vector<Entry> stack;
+        for (auto id = now.roots.rbegin(); id != now.roots.rend(); ++id) {
+            stack.push_back({*id});
+        }
+        Changes out;
+        std::size_t next = 0;
+        while (!stack.empty()) {
+            Entry entry = stack.back();
+            stack.pop_back();
+            const Node* node = now.nodes.find(entry.id);
+            if (node == nullptr || !node->visible) {
+                continue;
+            }
+            const Node* was = scene.nodes.find(entry.id);
+            if (was == nullptr || was->parent != node->parent || was->visible != node->visible ||
+                was->transform != node->transform) {
+                entry.moved = true;
+                out.nodes.push_back(entry.id);
+            }
+            for (auto id = node->children.rbegin(); id != node->children.rend(); ++id) {
+                stack.push_back({*id, entry.moved});
+            }
+            const Shape* shape = now.shapes.find(node->shape);
+            if (shape == nullptr) {
+                continue;
+            }
+            if (next == placed.size() || placed[next].node != entry.id || was->shape != node->shape ||
+                was->materials != node->materials || scene.shapes.find(was->shape)->geometry != shape->geometry) {
+                return std::nullopt;
+            }
+            if (entry.moved) {
+                out.placed.push_back(next);
+            }
+            ++next;
+        }
+        return next == placed.size() ? std::optional(out) : std::nullopt;
+    }
+
+    // A node at its new place; nothing when its triangles are not the ones it had.
+    [[nodiscard]] std::optional<Replaced> replace_node(const Scene& now, std::size_t index) const {
+        const Placed& place = placed[index];
+        Replaced out{index, now.world_bounds(place.node), now.world_matrix(place.node), {}, {}};
+        out.to_engine[3] -= dvec4(origin, 0.0);
+        if (out.to_engine == place.to_engine) {
+            return out; // none of its surfaces moves
+        }
+        const auto positions = positions_of(*place.mesh, out.to_engine);
+        std::uint32_t next = place.first_surface;
+        const std::uint32_t end = place.first_surface + place.surfaces;
+        for (std::size_t part = 0; part < place.mesh->parts.size(); ++part) {
+            RaySurface surface;
+            const bool has_surface = next < end && surfaces[next].part == part;
+            if (has_surface) {
+                surface = surfaces[next];
+            } else {
+                surface.mesh = place.mesh;
+                surface.part = std::uint32_t(part);
+            }
+            surface.positions = positions;
+            Box3 box;
+            place_surface(surface, out.to_engine, box);
+            if (surface.triangles.empty() == has_surface) {
+                return std::nullopt;
+            }
+            if (!has_surface) {
+                continue;
+            }
+            if (surface.mirrored != surfaces[next].mirrored || surface.triangles != surfaces[next].triangles) {
+                return std::nullopt;
+            }
+            find_glass(surface, *materials[next]);
+            out.surfaces.push_back(std::move(surface));
+            out.bounds.push_back(box);
+            ++next;
+        }
+        return out;
+    }
+
+    // Scene::bounds() of the new placements, and with it `extent`. Nothing when it makes any back reflect or stop to do so.
+    [[nodiscard]] std::optional<double> new_extent(const std::vector<Replaced>& replaced) const {
+        std::vector<const DBox3*> worlds;
+        for (const Placed& p : placed) {
+            worlds.push_back(&p.world);
+        }
+        for (const Replaced& r : replaced) {
+            worlds[r.placed] = &r.world;
+        }
+        DBox3 all;
+        for (const DBox3* world : worlds) {
+            all.add(*world);
+        }
+        const double out = all.diagonal();
+        const bool same = std::all_of(insides.begin(), insides.end(), [&](const Inside& inside) {
+            return is_small(*worlds[inside.placed], out) == inside.small || !is_solid(*inside.mesh);
+        });
+        return same ? std::optional(out) : std::nullopt;
+    }
+
+    std::optional<std::vector<MovedSurface>> move_to(const Scene& now) {
+        if (scene.materials != now.materials || scene.textures != now.textures) {
+            return std::nullopt;
+        }
+        const std::optional<Changes> changes = find_changes(now);
+        if (!changes) {
+            return std::nullopt;
+        }
+        std::vector<Replaced> replaced;
+        for (const std::size_t index : changes->placed) {
+            std::optional<Replaced> one = replace_node(now, index);
+            if (!one) {
+                return std::nullopt;
+            }
+            replaced.push_back(std::move(*one));
+        }
+        const std::optional<double> extent_now = new_extent(replaced);
+        if (!extent_now) {
+            return std::nullopt;
+        }
+        take_over(now, changes->nodes);
+        return take_over(std::move(replaced), *extent_now);
+    }
+
+    void take_over(const Scene& now, const std::vector<NodeId>& nodes) {
+        for (const NodeId id : nodes) {
+            Node* was = scene.nodes.find(id);
+            if (was == nullptr) { // a group that came new
+                scene.nodes = now.nodes;
+                return;
+            }
+            *was = *now.nodes.find(id);
+        }
+    }
+
+    std::vector<MovedSurface> take_over(std::vector<Replaced> replaced, double extent_now) {
+        std::vector<MovedSurface> out;
+        for (Replaced& r : replaced) {
+            Placed& place = placed[r.placed];
+            place.world = r.world;
+            place.to_engine = r.to_engine;
+            for (std::size_t i = 0; i < r.surfaces.size(); ++i) {
+                const std::size_t surface = place.first_surface + i;
+                out.push_back({std::uint32_t(surface), surface_bounds[surface], r.bounds[i]});
+                surface_bounds[surface] = r.bounds[i];
+                surfaces[surface] = std::move(r.surfaces[i]);
+            }
+        }
+        extent = extent_now;
+        for (Inside& inside : insides) {
+            inside.small = is_small(placed[inside.placed].world, extent);
+        }
+        if (out.empty()) {
+            return out;
+        }
+        bounds = {};
+        for (const Box3& box : surface_bounds) {
+            bounds.add(box);
+        }
+        any_filter = any_surface_filters();
+        release();
+        build();
+        return out;
     }
 
     static bool is_pane(const RaySurface& surface, const Material& material) {
@@ -194,7 +431,7 @@ struct RayScene::Impl {
         return area >= kLeastArea;
     }
 
-    void build() {
+    void open_device() {
         device = rtcNewDevice(nullptr);
         ATRIUM_CHECK(device != nullptr);
         rtcSetDeviceErrorFunction(device, on_embree_error, nullptr);
@@ -205,6 +442,9 @@ struct RayScene::Impl {
                 return true;
             },
             this);
+    }
+
+    void build() {
         embree = rtcNewScene(device);
         filters = rtcNewScene(device);
         for (RTCScene scene_part : {embree, filters}) {
@@ -233,11 +473,15 @@ struct RayScene::Impl {
         rtcCommitScene(filters);
     }
 
-    ~Impl() {
+    void release() {
         if (embree != nullptr) {
             rtcReleaseScene(embree);
             rtcReleaseScene(filters);
         }
+    }
+
+    ~Impl() {
+        release();
         if (device != nullptr) {
             rtcSetDeviceMemoryMonitorFunction(device, nullptr, nullptr);
             rtcReleaseDevice(device);
@@ -395,10 +639,13 @@ float shadow_offset(const vec3& p) {
 RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
     impl_->scene = scene;
     impl_->collect();
+    impl_->open_device();
     impl_->build();
 }
 
 RayScene::~RayScene() = default;
+
+std::optional<std::vector<MovedSurface>> RayScene::move_to(const Scene& scene) { return impl_->move_to(scene); }
 
 const std::vector<RaySurface>& RayScene::surfaces() const { return impl_->surfaces; }
 dvec3 RayScene::origin() const { return impl_->origin; }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -60,7 +61,14 @@ struct SkyRay {
     float first_pane = std::numeric_limits<float>::infinity();
 };
 
-/// Immutable once built; every query is safe from any thread. Coordinates are engine coordinates: see origin().
+/// A surface that RayScene::move_to() placed anew, and where it was: engine coordinates.
+struct MovedSurface {
+    std::uint32_t surface = 0; ///< index into RayScene::surfaces()
+    Box3 before;
+    Box3 after;
+};
+
+/// Immutable but for move_to(); every query is safe from any thread. Coordinates are engine coordinates: see origin().
 class RayScene {
 public:
     /// Builds from the shown nodes of `scene`, of which it keeps its own copy. Degenerate and non-finite triangles are left
@@ -69,6 +77,13 @@ public:
     ~RayScene();
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
+
+    /// Takes over the placements of nodes (and only these) from `scene`, while no query runs; the origin stays. Returns the
+    /// surfaces that moved. References to this and to surfaces() stay valid; `positions` of what moved are new ones. Nothing
+    /// is returned, and all is left as it was, when placing nodes anew does not lead to what would be built from `scene`:
+    /// other shown nodes, shapes, materials or textures, triangles that vanish or come back, another winding, other
+    /// reflecting backs. Names, lights, cameras, environment and settings are not looked at.
+    [[nodiscard]] std::optional<std::vector<MovedSurface>> move_to(const Scene& scene);
 
     [[nodiscard]] const std::vector<RaySurface>& surfaces() const;
     /// World position of engine (0,0,0): the centre of the scene's bounds, rounded to whole metres.

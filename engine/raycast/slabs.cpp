@@ -96,10 +96,13 @@ float slab_thickness(const RaySurface& surface) {
         sum += double(distance);
         if (std::none_of(directions.begin(), directions.end(),
                          [&](const vec3& d) { return std::abs(glm::dot(d, probe.normal)) > kCosParallel; })) {
+            if (directions.size() == kMostDirections) {
+                return 0.0F;
+            }
             directions.push_back(probe.normal);
         }
     }
-    return directions.size() <= kMostDirections ? float(sum / double(kProbes - missed)) : 0.0F;
+    return float(sum / double(kProbes - missed));
 }
 
 } // namespace atrium
