@@ -96,12 +96,15 @@ void ParticleMap::store(std::vector<ParticleBatch>&& batches) {
 
 void ParticleMap::count_landings() {
     for (ParticleLink& l : links_) {
-        l.first = l.landings = 0;
+        l.landings = 0;
     }
-    for (std::size_t i = 0; i < landings_.size(); ++i) {
-        ParticleLink& l = links_[landings_[i].link];
-        l.first = l.landings == 0 ? i : l.first;
-        ++l.landings;
+    for (const Landing& l : landings_) {
+        ++links_[l.link].landings;
+    }
+    std::size_t first = 0;
+    for (ParticleLink& l : links_) {
+        l.first = first;
+        first += l.landings;
     }
 }
 

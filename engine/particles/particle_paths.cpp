@@ -9,19 +9,24 @@
 namespace atrium {
 namespace {
 
-constexpr std::size_t kGrain = 8192; // vertices: what is worked on stays in the first cache
-constexpr std::size_t kBlock = 512;
+constexpr std::size_t kGrain = 8192; // vertices, particles
+constexpr std::size_t kBlock = 128;
 
-// Which segments [i, i + 1) of a run of vertices meet a box: by the axes that may separate them, without a division, so that
-// it is the same handful of steps for all and the compiler takes several at a time. The last three hold for any point of
-// the segment's line; its start is near, where its end may be kFar away and would round badly.
-void mark_segments(const float* x, const float* y, const float* z, std::size_t count, const Box3& box,
-                   std::array<float, kBlock>& apart) {
+/// A run of segments side by side: what the compiler can take four at a time.
+struct SegmentBlock {
+    std::array<float, kBlock + 1> x, y, z;
+    std::array<float, kBlock> apart; ///< from the nearest box, 0 or less where they meet
+};
+
+// Which segments [i, i + 1) of a run of vertices meet a box: by the axes that may separate them, without a division or a
+// branch. The last three hold for any point of the segment's line; its start is near, where its end may be kFar away and
+// would round badly.
+void measure_gaps(SegmentBlock& s, const Box3& box) {
     const vec3 c = box.centre();
     const vec3 e = 0.5F * box.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const float ax = x[i] - c.x, ay = y[i] - c.y, az = z[i] - c.z;
-        const float dx = x[i + 1] - x[i], dy = y[i + 1] - y[i], dz = z[i + 1] - z[i];
+    for (std::size_t i = 0; i < kBlock; ++i) {
+        const float ax = s.x[i] - c.x, ay = s.y[i] - c.y, az = s.z[i] - c.z;
+        const float dx = s.x[i + 1] - s.x[i], dy = s.y[i + 1] - s.y[i], dz = s.z[i + 1] - s.z[i];
         const float bx = ax + dx, by = ay + dy, bz = az + dz;
         const float lx = std::abs(dx), ly = std::abs(dy), lz = std::abs(dz);
         // How far outside the box along each axis: positive where the segment is apart.
@@ -31,7 +36,7 @@ void mark_segments(const float* x, const float* y, const float* z, std::size_t c
         gap = std::max(gap, std::abs(dy * az - dz * ay) - (e.y * lz + e.z * ly));
         gap = std::max(gap, std::abs(dz * ax - dx * az) - (e.z * lx + e.x * lz));
         gap = std::max(gap, std::abs(dx * ay - dy * ax) - (e.x * ly + e.y * lx));
-        apart[i] = std::min(apart[i], gap);
+        s.apart[i] = std::min(s.apart[i], gap);
     }
 }
 
@@ -134,16 +139,20 @@ void ParticlePaths::mark_crossing(std::span<const Box3> boxes, float reach, std:
     // Segments from one particle's end to the next one's start are looked at as well, which costs less than to leave them
     // out.
     std::vector<std::uint8_t> meets(x_.size(), 0);
-    parallel_chunks(x_.size() - 1, kGrain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        std::array<float, kBlock> apart;
+    const std::size_t segments = x_.size() - 1;
+    parallel_chunks(segments, kGrain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        SegmentBlock block{}; // what is left over of the last one does no harm
         for (std::size_t i = begin; i < end; i += kBlock) {
             const std::size_t count = std::min(kBlock, end - i);
-            apart.fill(1.0F);
+            std::copy_n(&x_[i], count + 1, block.x.begin());
+            std::copy_n(&y_[i], count + 1, block.y.begin());
+            std::copy_n(&z_[i], count + 1, block.z.begin());
+            block.apart.fill(1.0F);
             for (const Box3& box : wide) {
-                mark_segments(&x_[i], &y_[i], &z_[i], count, box, apart);
+                measure_gaps(block, box);
             }
             for (std::size_t k = 0; k < count; ++k) {
-                meets[i + k] = apart[k] > 0.0F ? 0 : 1;
+                meets[i + k] = block.apart[k] > 0.0F ? 0 : 1;
             }
         }
     });
