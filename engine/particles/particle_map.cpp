@@ -57,6 +57,7 @@ ParticleMap::ParticleMap(const RayScene& rays, const SpecularTargets& targets, c
     }
     if (settings.keep_paths) {
         paths_.emplace();
+        with_octree_ = settings.passage_octree;
     }
     store(std::move(batches));
     complete_ = true;
@@ -72,6 +73,7 @@ void ParticleMap::store(std::vector<ParticleBatch>&& batches) {
     landings_.reserve(count);
     energy_ = {};
     shares_.clear();
+    octree_.reset();
     if (paths_) {
         paths_->reset(emitted_, vertices);
         shares_.reserve(emitted_);
@@ -125,7 +127,8 @@ void ParticleMap::sum_energy() {
 
 std::size_t ParticleMap::memory_bytes() const {
     std::size_t bytes = landings_.capacity() * sizeof(Landing) + links_.capacity() * sizeof(ParticleLink);
-    bytes += shares_.capacity() * sizeof(ParticleShares) + (paths_ ? paths_->memory_bytes() : 0);
+    bytes += shares_.capacity() * sizeof(ParticleShares) + (paths_ ? paths_->memory_bytes() : 0) +
+             (octree_ ? octree_->memory_bytes() : 0);
     for (const ParticleSource& s : sources_) {
         bytes += s.leaves.capacity() * (sizeof(std::uint32_t) + sizeof(double));
     }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/particles/particle_batch.h"
-#include "engine/particles/particle_paths.h"
+#include "engine/particles/passage_octree.h"
 
 #include <optional>
 #include <span>
@@ -14,7 +14,8 @@ struct ParticleSettings {
     std::uint32_t particles = 250'000; ///< emitted at most, all links together
     std::uint32_t pilot = 256;         ///< of every link: what it is worth
     std::uint32_t seed = 1;
-    bool keep_paths = false; ///< for ParticleMap::update(); about 90 bytes a particle
+    bool keep_paths = false;     ///< for ParticleMap::update(); about 90 bytes a particle
+    bool passage_octree = false; ///< touched particles are found by the paper's octree instead of a scan
 };
 
 /// What ParticleMap::update() did.
@@ -54,6 +55,7 @@ public:
     [[nodiscard]] bool complete() const { return complete_; }
     [[nodiscard]] bool keeps_paths() const { return paths_.has_value(); }
     [[nodiscard]] const ParticlePaths& paths() const { return *paths_; } ///< of all particles, link by link
+    [[nodiscard]] const std::optional<PassageOctree>& octree() const { return octree_; }
     [[nodiscard]] const std::vector<ParticleSource>& sources() const { return sources_; }
     [[nodiscard]] const std::vector<ParticleLink>& links() const { return links_; }  ///< only such as light something
     [[nodiscard]] const std::vector<Landing>& landings() const { return landings_; } ///< link by link, in stream order
@@ -71,7 +73,7 @@ private:
     [[nodiscard]] std::vector<std::uint8_t> re_aimed(const ParticleScene& scene, const std::vector<ParticleSource>& sources,
                                                      std::span<const std::uint32_t> moved) const;
     [[nodiscard]] std::vector<std::uint32_t> touched(std::span<const Box3> boxes, float reach,
-                                                     const std::vector<std::uint8_t>& whole) const;
+                                                     const std::vector<std::uint8_t>& whole);
     [[nodiscard]] std::vector<Change> compare(const std::vector<std::uint32_t>& particles,
                                               const std::vector<ParticleBatch>& batches) const;
     void replace(const std::vector<Change>& changes);
@@ -86,7 +88,9 @@ private:
     std::uint64_t emitted_ = 0;
     ParticleEnergy energy_;
     std::optional<ParticlePaths> paths_;
-    std::vector<ParticleShares> shares_; ///< with paths: of every particle, so that their sum does not depend on the past
+    bool with_octree_ = false;
+    std::optional<PassageOctree> octree_; ///< once something moved
+    std::vector<ParticleShares> shares_;  ///< with paths: of every particle, so that their sum does not depend on the past
 };
 
 } // namespace atrium

@@ -72,9 +72,17 @@ std::vector<std::uint8_t> ParticleMap::re_aimed(const ParticleScene& scene, cons
 }
 
 std::vector<std::uint32_t> ParticleMap::touched(std::span<const Box3> boxes, float reach,
-                                                const std::vector<std::uint8_t>& whole) const {
+                                                const std::vector<std::uint8_t>& whole) {
     std::vector<std::uint8_t> marks(shares_.size(), 0);
-    paths_->mark_crossing(boxes, reach, marks);
+    const std::vector<Box3> wide = ParticlePaths::widened(boxes, reach);
+    if (with_octree_ && (!octree_ || octree_->reach() != reach)) {
+        octree_.emplace(reach);
+    }
+    if (octree_) {
+        octree_->mark_crossing(*paths_, wide, marks);
+    } else {
+        paths_->mark_crossing(wide, marks);
+    }
     for (std::size_t i = 0; i < links_.size(); ++i) {
         if (whole[i] != 0) {
             std::fill_n(marks.begin() + std::ptrdiff_t(links_[i].first_particle), links_[i].count, std::uint8_t(1));
@@ -145,6 +153,9 @@ void ParticleMap::replace(const std::vector<Change>& changes) {
     }
     runs.push_back({at, to, landings_.size() - at});
     const std::size_t size = to + runs.back().count;
+    if (size > landings_.capacity()) {
+        landings_.reserve(size + size / 16);
+    }
     landings_.resize(std::max(size, landings_.size()));
     for (const Run& r : runs) {
         if (r.to < r.from) {
@@ -232,6 +243,9 @@ ParticleUpdate ParticleMap::update(const ParticleScene& scene, std::span<const B
         }
     }
     paths_->compact();
+    if (octree_) {
+        octree_->follow(*paths_, particles);
+    }
     sum_energy();
     out.surfaces = marked(surfaces);
     out.particles = particles.size();

@@ -123,6 +123,57 @@ struct Walk {
     ParticleMap map;
 };
 
+TEST(ParticleUpdate, TheOctreeFindsWhatTheScanFinds) {
+    const Staged s(stage().scene);
+    const ParticleMap map = trace(s, 20'000);
+    PassageOctree octree(scene_reach(s.rays));
+    EXPECT_EQ(octree.cells(), 1U); // empty until something moves
+    std::size_t found = 0;
+    for (std::uint32_t i = 0; i < 60; ++i) { // boxes of all sizes; some partly outside of everything
+        const vec3 centre = 3.2F * (2.0F * vec3(sobol_owen(i, 0, 3), sobol_owen(i, 1, 3), sobol_owen(i, 2, 3)) - vec3(1.0F));
+        const vec3 half = vec3(0.01F + std::exp2(-float(i % 8)));
+        std::vector<Box3> boxes(2);
+        boxes[0].add(centre - half);
+        boxes[0].add(centre + half);
+        boxes[1].add(centre);
+        boxes[1].add(centre + vec3(half.x, 0.0F, 0.3F * half.z));
+        std::vector<std::uint8_t> scan(map.paths().size(), 0), tree = scan, one = scan;
+        map.paths().mark_crossing(boxes, scan);
+        octree.mark_crossing(map.paths(), boxes, tree);
+        for (std::size_t p = 0; p < one.size(); ++p) {
+            one[p] = map.paths().crosses(p, boxes) ? 1 : 0;
+            found += one[p];
+        }
+        ASSERT_TRUE(scan == one) << i;
+        ASSERT_TRUE(tree == one) << i;
+    }
+    EXPECT_GT(found, 0U);
+    EXPECT_LT(octree.cells(), 200U); // those behind are gone
+}
+
+TEST(ParticleUpdate, TheOctreeFollowsWhatIsTracedAgain) {
+    Stage set = stage();
+    auto at = std::make_unique<Staged>(set.scene);
+    ParticleMap scan = trace(*at, 20'000);
+    ParticleSettings settings = keeping(20'000);
+    settings.passage_octree = true;
+    ParticleMap tree(at->rays, at->targets, at->direct, at->emitters, {}, settings, RunContext{});
+    for (std::uint32_t i = 0; i < 24; ++i) {
+        const NodeId id = i % 8 == 5 ? set.ball : set.box;
+        set.scene.nodes.find(id)->transform.translation =
+            id == set.box ? place(i / 2) + dvec3(0.1 * (i % 2), 0, 0) : dvec3(-0.6, 0.5, -0.5 + 0.05 * i);
+        auto next = std::make_unique<Staged>(set.scene);
+        const Moved moved(at->rays, next->rays);
+        const ParticleUpdate a = scan.update(next->particle_scene(), moved.boxes, moved.surfaces, RunContext{});
+        const ParticleUpdate b = tree.update(next->particle_scene(), moved.boxes, moved.surfaces, RunContext{});
+        EXPECT_EQ(a.particles, b.particles);
+        expect_same(scan, tree);
+        at = std::move(next);
+    }
+    EXPECT_GT(tree.octree()->cells(), 1U);
+    EXPECT_GT(tree.memory_bytes(), scan.memory_bytes());
+}
+
 TEST(ParticleUpdate, TargetsAndSourcesThatMoveAreAimedAnew) {
     Walk walk(stage());
     const ParticleMap start = walk.map;
