@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace atrium {
 namespace {
@@ -207,33 +208,56 @@ ParticleUpdate ParticleMap::update(const ParticleScene& scene, std::span<const B
     if (context.should_stop()) {
         return out;
     }
-    std::vector<std::uint8_t> surfaces(scene.rays.surfaces().size(), 0);
     const std::vector<Change> changes = compare(particles, batches);
-    for (const Change& c : changes) {
-        mark(std::span(landings_).subspan(c.first, c.count), surfaces);
-        mark(c.now, surfaces);
-        out.landings += std::max(c.count, c.now.size());
-    }
-    for (const std::uint32_t s : moved) {
-        surfaces[s] = 1;
-    }
+    out.surfaces = changed_surfaces(scene, sources, moved, changes);
     std::size_t k = 0;
-    for (std::size_t i = 0; i < links.size(); ++i) { // brightness is no part of a landing
-        const ParticleLink& l = links[i];
-        if (sources[l.source].radiance != sources_[l.source].radiance) {
-            mark(std::span(landings_).subspan(l.first, l.landings), surfaces);
-        }
+    for (std::size_t i = 0; i < links.size(); ++i) {
         const std::size_t before = k;
-        while (k < particles.size() && particles[k] < l.first_particle + l.count) {
+        while (k < particles.size() && particles[k] < links[i].first_particle + links[i].count) {
             ++k;
         }
         out.links += k > before ? 1 : 0;
         out.re_aimed += whole[i];
     }
-    links_ = std::move(links);
+    const std::vector<ParticleLink> before = std::exchange(links_, std::move(links));
     sources_ = std::move(sources);
     replace(changes);
-    k = 0;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+        out.lit += links_[i].landings > 0 && before[i].landings == 0 ? 1 : 0;
+    }
+    keep_paths(particles, batches);
+    for (const Change& c : changes) {
+        out.landings += std::max(c.count, c.now.size());
+    }
+    out.particles = particles.size();
+    out.share = shares_.empty() ? 0.0 : double(particles.size()) / double(shares_.size());
+    out.complete = true;
+    out.store_seconds = seconds_since(clock);
+    return out;
+}
+
+std::vector<std::uint32_t> ParticleMap::changed_surfaces(const ParticleScene& scene,
+                                                         const std::vector<ParticleSource>& sources,
+                                                         std::span<const std::uint32_t> moved,
+                                                         const std::vector<Change>& changes) const {
+    std::vector<std::uint8_t> surfaces(scene.rays.surfaces().size(), 0);
+    for (const Change& c : changes) {
+        mark(std::span(landings_).subspan(c.first, c.count), surfaces);
+        mark(c.now, surfaces);
+    }
+    for (const ParticleLink& l : links_) { // brightness is no part of a landing
+        if (sources[l.source].radiance != sources_[l.source].radiance) {
+            mark(std::span(landings_).subspan(l.first, l.landings), surfaces);
+        }
+    }
+    for (const std::uint32_t s : moved) {
+        surfaces[s] = 1;
+    }
+    return marked(surfaces);
+}
+
+void ParticleMap::keep_paths(const std::vector<std::uint32_t>& particles, const std::vector<ParticleBatch>& batches) {
+    std::size_t k = 0;
     for (const ParticleBatch& b : batches) {
         std::size_t vertex = 0;
         for (std::size_t i = 0; i < b.vertex_count.size(); ++i, ++k) {
@@ -247,12 +271,6 @@ ParticleUpdate ParticleMap::update(const ParticleScene& scene, std::span<const B
         octree_->follow(*paths_, particles);
     }
     sum_energy();
-    out.surfaces = marked(surfaces);
-    out.particles = particles.size();
-    out.share = shares_.empty() ? 0.0 : double(particles.size()) / double(shares_.size());
-    out.complete = true;
-    out.store_seconds = seconds_since(clock);
-    return out;
 }
 
 bool ParticleMap::retrace(const ParticleScene& scene, const RunContext& context) {
