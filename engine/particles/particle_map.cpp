@@ -6,6 +6,11 @@
 #include <algorithm>
 
 namespace atrium {
+namespace {
+
+constexpr std::size_t kWatched = 16; // one particle in so many, at most, belongs to links that light nothing
+
+} // namespace
 
 ParticleMap::ParticleMap(const RayScene& rays, const SpecularTargets& targets, const DirectLight& direct,
                          const Hierarchy& emitters, const CarriedByImage& by_image, const ParticleSettings& settings,
@@ -41,15 +46,7 @@ ParticleMap::ParticleMap(const RayScene& rays, const SpecularTargets& targets, c
     if (context.should_stop()) {
         return;
     }
-    std::erase_if(links_, [](const ParticleLink& l) { return !(l.landed > 0.0); });
-    double all = 0.0;
-    for (const ParticleLink& l : links_) {
-        all += l.landed;
-    }
-    for (ParticleLink& l : links_) {
-        l.count = std::max(pilot, std::uint32_t(std::lround(settings.particles * (l.landed / all))));
-        emitted_ += l.count;
-    }
+    share_out(settings, pilot);
     prepare_links(links_, sources_, targets);
     std::vector<ParticleBatch> batches = trace_batches(scene, sources_, links_, nullptr, settings.keep_paths, context);
     if (context.should_stop()) {
@@ -57,9 +54,30 @@ ParticleMap::ParticleMap(const RayScene& rays, const SpecularTargets& targets, c
     }
     if (settings.keep_paths) {
         paths_.emplace();
+        with_octree_ = settings.passage_octree;
     }
     store(std::move(batches));
     complete_ = true;
+}
+
+void ParticleMap::share_out(const ParticleSettings& settings, std::uint32_t pilot) {
+    const auto lit = [](const ParticleLink& l) { return l.landed > 0.0; };
+    const auto dark = std::stable_partition(links_.begin(), links_.end(), lit);
+    const auto dark_links = std::size_t(links_.end() - dark);
+    // A few of those that light nothing are kept under watch: an object may come into their way, or go out of it.
+    const std::size_t watched = settings.keep_paths && dark_links > 0 ? settings.particles / (kWatched * dark_links) : 0;
+    if (watched == 0) {
+        links_.erase(dark, links_.end());
+    }
+    double all = 0.0;
+    for (const ParticleLink& l : links_) {
+        all += l.landed;
+    }
+    for (ParticleLink& l : links_) {
+        l.count = lit(l) ? std::max(pilot, std::uint32_t(std::lround(settings.particles * (l.landed / all))))
+                         : std::uint32_t(std::min<std::size_t>(watched, pilot));
+        emitted_ += l.count;
+    }
 }
 
 void ParticleMap::store(std::vector<ParticleBatch>&& batches) {
@@ -72,6 +90,7 @@ void ParticleMap::store(std::vector<ParticleBatch>&& batches) {
     landings_.reserve(count);
     energy_ = {};
     shares_.clear();
+    octree_.reset();
     if (paths_) {
         paths_->reset(emitted_, vertices);
         shares_.reserve(emitted_);
@@ -88,33 +107,41 @@ void ParticleMap::store(std::vector<ParticleBatch>&& batches) {
         }
         b = {};
     }
+    count_landings();
     if (paths_) {
         sum_energy();
     }
-    count_landings();
 }
 
 void ParticleMap::count_landings() {
     for (ParticleLink& l : links_) {
-        l.first = l.landings = 0;
+        l.landings = 0;
     }
-    for (std::size_t i = 0; i < landings_.size(); ++i) {
-        ParticleLink& l = links_[landings_[i].link];
-        l.first = l.landings == 0 ? i : l.first;
-        ++l.landings;
+    for (const Landing& l : landings_) {
+        ++links_[l.link].landings;
+    }
+    std::size_t first = 0;
+    for (ParticleLink& l : links_) {
+        l.first = first;
+        first += l.landings;
     }
 }
 
 void ParticleMap::sum_energy() {
-    constexpr std::size_t kGrain = 4096;
-    energy_ = {};
-    std::vector<ParticleEnergy> parts(chunk_count(shares_.size(), kGrain));
-    parallel_chunks(shares_.size(), kGrain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const ParticleShares& s = shares_[i];
-            parts[chunk] += {s[0], s[1], s[2], s[3], s[4], s[5]};
+    std::vector<ParticleEnergy> parts(links_.size());
+    parallel_chunks(links_.size(), 16, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t l = begin; l < end; ++l) {
+            const ParticleLink& link = links_[l];
+            if (!(link.landed > 0.0) && link.landings == 0) {
+                continue; // only watched: a map without paths does not know of it
+            }
+            for (std::size_t i = link.first_particle; i < link.first_particle + link.count; ++i) {
+                const ParticleShares& s = shares_[i];
+                parts[l] += {s[0], s[1], s[2], s[3], s[4], s[5]};
+            }
         }
     });
+    energy_ = {};
     for (const ParticleEnergy& part : parts) {
         energy_ += part;
     }
@@ -122,7 +149,8 @@ void ParticleMap::sum_energy() {
 
 std::size_t ParticleMap::memory_bytes() const {
     std::size_t bytes = landings_.capacity() * sizeof(Landing) + links_.capacity() * sizeof(ParticleLink);
-    bytes += shares_.capacity() * sizeof(ParticleShares) + (paths_ ? paths_->memory_bytes() : 0);
+    bytes += shares_.capacity() * sizeof(ParticleShares) + (paths_ ? paths_->memory_bytes() : 0) +
+             (octree_ ? octree_->memory_bytes() : 0);
     for (const ParticleSource& s : sources_) {
         bytes += s.leaves.capacity() * (sizeof(std::uint32_t) + sizeof(double));
     }

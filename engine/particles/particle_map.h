@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/particles/particle_batch.h"
-#include "engine/particles/particle_paths.h"
+#include "engine/particles/passage_octree.h"
 
 #include <optional>
 #include <span>
@@ -14,7 +14,8 @@ struct ParticleSettings {
     std::uint32_t particles = 250'000; ///< emitted at most, all links together
     std::uint32_t pilot = 256;         ///< of every link: what it is worth
     std::uint32_t seed = 1;
-    bool keep_paths = false; ///< for ParticleMap::update(); about 90 bytes a particle
+    bool keep_paths = false;     ///< for ParticleMap::update(); about 90 bytes a particle
+    bool passage_octree = false; ///< touched particles are found by the paper's octree instead of a scan
 };
 
 /// What ParticleMap::update() did.
@@ -24,6 +25,7 @@ struct ParticleUpdate {
     std::uint64_t particles = 0; ///< traced again
     double share = 0.0;          ///< of all
     std::uint64_t landings = 0;  ///< taken away, put in or replaced by others
+    std::uint32_t lit = 0;       ///< links that lit nothing before and do now: a new map would give them more particles
     std::uint32_t links = 0;     ///< with particles that were traced again
     std::uint32_t re_aimed = 0;  ///< of these: traced again as a whole, since their source or target moved
     std::vector<std::uint32_t> surfaces; ///< that moved, or whose landings or their power are others now, ascending
@@ -54,8 +56,11 @@ public:
     [[nodiscard]] bool complete() const { return complete_; }
     [[nodiscard]] bool keeps_paths() const { return paths_.has_value(); }
     [[nodiscard]] const ParticlePaths& paths() const { return *paths_; } ///< of all particles, link by link
+    [[nodiscard]] const std::optional<PassageOctree>& octree() const { return octree_; }
     [[nodiscard]] const std::vector<ParticleSource>& sources() const { return sources_; }
-    [[nodiscard]] const std::vector<ParticleLink>& links() const { return links_; }  ///< only such as light something
+    [[nodiscard]] const std::vector<ParticleLink>& links() const {
+        return links_;
+    } ///< such as light something; with paths also others, last
     [[nodiscard]] const std::vector<Landing>& landings() const { return landings_; } ///< link by link, in stream order
     [[nodiscard]] std::uint64_t emitted() const { return emitted_; }                 ///< particles, the pilot's aside
     [[nodiscard]] const ParticleEnergy& energy() const { return energy_; }
@@ -71,10 +76,16 @@ private:
     [[nodiscard]] std::vector<std::uint8_t> re_aimed(const ParticleScene& scene, const std::vector<ParticleSource>& sources,
                                                      std::span<const std::uint32_t> moved) const;
     [[nodiscard]] std::vector<std::uint32_t> touched(std::span<const Box3> boxes, float reach,
-                                                     const std::vector<std::uint8_t>& whole) const;
+                                                     const std::vector<std::uint8_t>& whole);
     [[nodiscard]] std::vector<Change> compare(const std::vector<std::uint32_t>& particles,
                                               const std::vector<ParticleBatch>& batches) const;
+    [[nodiscard]] std::vector<std::uint32_t> changed_surfaces(const ParticleScene& scene,
+                                                              const std::vector<ParticleSource>& sources,
+                                                              std::span<const std::uint32_t> moved,
+                                                              const std::vector<Change>& changes) const;
     void replace(const std::vector<Change>& changes);
+    void keep_paths(const std::vector<std::uint32_t>& particles, const std::vector<ParticleBatch>& batches);
+    void share_out(const ParticleSettings& settings, std::uint32_t pilot);
     void store(std::vector<ParticleBatch>&& batches);
     void count_landings();
     void sum_energy();
@@ -86,7 +97,9 @@ private:
     std::uint64_t emitted_ = 0;
     ParticleEnergy energy_;
     std::optional<ParticlePaths> paths_;
-    std::vector<ParticleShares> shares_; ///< with paths: of every particle, so that their sum does not depend on the past
+    bool with_octree_ = false;
+    std::optional<PassageOctree> octree_; ///< once something moved
+    std::vector<ParticleShares> shares_;  ///< with paths: of every particle, so that their sum does not depend on the past
 };
 
 } // namespace atrium

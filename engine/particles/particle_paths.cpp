@@ -9,38 +9,39 @@
 namespace atrium {
 namespace {
 
-constexpr std::size_t kGrain = 8192; // vertices: what is worked on stays in the first cache
-constexpr std::size_t kBlock = 512;
+constexpr std::size_t kGrain = 8192; // vertices, particles
+constexpr std::size_t kBlock = 128;
 
-// Which segments [i, i + 1) of a run of vertices meet a box: by the axes that may separate them, without a division, so that
-// it is the same handful of steps for all and the compiler takes several at a time. The last three hold for any point of
-// the segment's line; its start is near, where its end may be kFar away and would round badly.
-void mark_segments(const float* x, const float* y, const float* z, std::size_t count, const Box3& box,
-                   std::array<float, kBlock>& apart) {
-    const vec3 c = box.centre();
-    const vec3 e = 0.5F * box.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const float ax = x[i] - c.x, ay = y[i] - c.y, az = z[i] - c.z;
-        const float dx = x[i + 1] - x[i], dy = y[i + 1] - y[i], dz = z[i + 1] - z[i];
-        const float bx = ax + dx, by = ay + dy, bz = az + dz;
-        const float lx = std::abs(dx), ly = std::abs(dy), lz = std::abs(dz);
-        // How far outside the box along each axis: positive where the segment is apart.
-        float gap = std::max(std::min(ax, bx), -std::max(ax, bx)) - e.x;
-        gap = std::max(gap, std::max(std::min(ay, by), -std::max(ay, by)) - e.y);
-        gap = std::max(gap, std::max(std::min(az, bz), -std::max(az, bz)) - e.z);
-        gap = std::max(gap, std::abs(dy * az - dz * ay) - (e.y * lz + e.z * ly));
-        gap = std::max(gap, std::abs(dz * ax - dx * az) - (e.z * lx + e.x * lz));
-        gap = std::max(gap, std::abs(dx * ay - dy * ax) - (e.x * ly + e.y * lx));
-        apart[i] = std::min(apart[i], gap);
-    }
+/// A run of segments side by side: what the compiler can take four at a time.
+struct SegmentBlock {
+    std::array<float, kBlock + 1> x, y, z;
+    std::array<float, kBlock> apart; ///< from the nearest box, 0 or less where they meet
+};
+
+// How far a segment is outside a box, positive where they are apart: by the axes that may separate them, without a division
+// or a branch. The last three hold for any point of the segment's line; its start is near, where its end may be kFar away
+// and would round badly.
+inline float gap_between(const vec3& from, const vec3& to, const vec3& c, const vec3& e) {
+    const float ax = from.x - c.x, ay = from.y - c.y, az = from.z - c.z;
+    const float dx = to.x - from.x, dy = to.y - from.y, dz = to.z - from.z;
+    const float bx = ax + dx, by = ay + dy, bz = az + dz;
+    const float lx = std::abs(dx), ly = std::abs(dy), lz = std::abs(dz);
+    float gap = std::max(std::min(ax, bx), -std::max(ax, bx)) - e.x;
+    gap = std::max(gap, std::max(std::min(ay, by), -std::max(ay, by)) - e.y);
+    gap = std::max(gap, std::max(std::min(az, bz), -std::max(az, bz)) - e.z);
+    gap = std::max(gap, std::abs(dy * az - dz * ay) - (e.y * lz + e.z * ly));
+    gap = std::max(gap, std::abs(dz * ax - dx * az) - (e.z * lx + e.x * lz));
+    return std::max(gap, std::abs(dx * ay - dy * ax) - (e.x * ly + e.y * lx));
 }
 
-Box3 with_margin(const Box3& box, float reach) {
-    const vec3 margin(1e-4F + 2e-6F * reach);
-    Box3 out = box;
-    out.min -= margin;
-    out.max += margin;
-    return out;
+// Segments [i, i + 1) of a run of vertices.
+void measure_gaps(SegmentBlock& s, const Box3& box) {
+    const vec3 c = box.centre();
+    const vec3 e = 0.5F * box.size();
+    for (std::size_t i = 0; i < kBlock; ++i) {
+        const float gap = gap_between({s.x[i], s.y[i], s.z[i]}, {s.x[i + 1], s.y[i + 1], s.z[i + 1]}, c, e);
+        s.apart[i] = std::min(s.apart[i], gap);
+    }
 }
 
 } // namespace
@@ -120,30 +121,53 @@ std::size_t ParticlePaths::memory_bytes() const {
     return 3 * x_.capacity() * sizeof(float) + (first_.capacity() + count_.capacity()) * sizeof(std::uint32_t);
 }
 
-void ParticlePaths::mark_crossing(std::span<const Box3> boxes, float reach, std::span<std::uint8_t> marks) const {
-    ATRIUM_CHECK(marks.size() == size());
-    std::vector<Box3> wide;
-    for (const Box3& b : boxes) {
+std::vector<Box3> ParticlePaths::widened(std::span<const Box3> boxes, float reach) {
+    const vec3 margin(1e-4F + 2e-6F * reach);
+    std::vector<Box3> out;
+    for (Box3 b : boxes) {
         if (!b.empty()) {
-            wide.push_back(with_margin(b, reach));
+            b.min -= margin;
+            b.max += margin;
+            out.push_back(b);
         }
     }
-    if (wide.empty() || x_.size() < 2) {
+    return out;
+}
+
+bool ParticlePaths::crosses(std::size_t particle, std::span<const Box3> boxes) const {
+    for (std::size_t i = first_[particle]; i + 1 < first_[particle] + count_[particle]; ++i) {
+        const vec3 from(x_[i], y_[i], z_[i]), to(x_[i + 1], y_[i + 1], z_[i + 1]);
+        for (const Box3& box : boxes) {
+            if (!(gap_between(from, to, box.centre(), 0.5F * box.size()) > 0.0F)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+void ParticlePaths::mark_crossing(std::span<const Box3> boxes, std::span<std::uint8_t> marks) const {
+    ATRIUM_CHECK(marks.size() == size());
+    if (boxes.empty() || x_.size() < 2) {
         return;
     }
     // Segments from one particle's end to the next one's start are looked at as well, which costs less than to leave them
     // out.
     std::vector<std::uint8_t> meets(x_.size(), 0);
-    parallel_chunks(x_.size() - 1, kGrain, [&](std::size_t begin, std::size_t end, std::size_t) {
-        std::array<float, kBlock> apart;
+    const std::size_t segments = x_.size() - 1;
+    parallel_chunks(segments, kGrain, [&](std::size_t begin, std::size_t end, std::size_t) {
+        SegmentBlock block{}; // what is left over of the last one does no harm
         for (std::size_t i = begin; i < end; i += kBlock) {
             const std::size_t count = std::min(kBlock, end - i);
-            apart.fill(1.0F);
-            for (const Box3& box : wide) {
-                mark_segments(&x_[i], &y_[i], &z_[i], count, box, apart);
+            std::copy_n(&x_[i], count + 1, block.x.begin());
+            std::copy_n(&y_[i], count + 1, block.y.begin());
+            std::copy_n(&z_[i], count + 1, block.z.begin());
+            block.apart.fill(1.0F);
+            for (const Box3& box : boxes) {
+                measure_gaps(block, box);
             }
             for (std::size_t k = 0; k < count; ++k) {
-                meets[i + k] = apart[k] > 0.0F ? 0 : 1;
+                meets[i + k] = block.apart[k] > 0.0F ? 0 : 1;
             }
         }
     });

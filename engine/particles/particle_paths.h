@@ -31,10 +31,14 @@ public:
     [[nodiscard]] std::vector<vec3> path(std::size_t particle) const;
     [[nodiscard]] std::size_t memory_bytes() const;
 
+    /// Boxes as mark_crossing() takes them: larger by what rays are rounded by that start within `reach` metres of (0,0,0)
+    /// or twice that, without those that are empty.
+    static std::vector<Box3> widened(std::span<const Box3> boxes, float reach);
+    /// True where a particle's path meets one of some boxes, which are taken as they are.
+    [[nodiscard]] bool crosses(std::size_t particle, std::span<const Box3> boxes) const;
     /// Marks the particles whose path meets one of the boxes (1 in `marks`, one for each particle; the others are left as
-    /// they are). Boxes count as larger by what rays are rounded by that start within `reach` metres of (0,0,0) or twice
-    /// that, so some that just miss are marked too. Parallel.
-    void mark_crossing(std::span<const Box3> boxes, float reach, std::span<std::uint8_t> marks) const;
+    /// they are); boxes are taken as they are. Parallel.
+    void mark_crossing(std::span<const Box3> boxes, std::span<std::uint8_t> marks) const;
 
 private:
     std::vector<float> x_, y_, z_;

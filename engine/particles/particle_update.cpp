@@ -1,9 +1,11 @@
 // ParticleMap: what an edit touches is traced again, the rest stays.
 #include "engine/base/checks.h"
+#include "engine/base/parallel.h"
 #include "engine/particles/particle_map.h"
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace atrium {
 namespace {
@@ -71,9 +73,17 @@ std::vector<std::uint8_t> ParticleMap::re_aimed(const ParticleScene& scene, cons
 }
 
 std::vector<std::uint32_t> ParticleMap::touched(std::span<const Box3> boxes, float reach,
-                                                const std::vector<std::uint8_t>& whole) const {
+                                                const std::vector<std::uint8_t>& whole) {
     std::vector<std::uint8_t> marks(shares_.size(), 0);
-    paths_->mark_crossing(boxes, reach, marks);
+    const std::vector<Box3> wide = ParticlePaths::widened(boxes, reach);
+    if (with_octree_ && (!octree_ || octree_->reach() != reach)) {
+        octree_.emplace(reach);
+    }
+    if (octree_) {
+        octree_->mark_crossing(*paths_, wide, marks);
+    } else {
+        paths_->mark_crossing(wide, marks);
+    }
     for (std::size_t i = 0; i < links_.size(); ++i) {
         if (whole[i] != 0) {
             std::fill_n(marks.begin() + std::ptrdiff_t(links_[i].first_particle), links_[i].count, std::uint8_t(1));
@@ -85,61 +95,91 @@ std::vector<std::uint32_t> ParticleMap::touched(std::span<const Box3> boxes, flo
 // What is other than before: particles that were touched for nothing leave no change.
 std::vector<ParticleMap::Change> ParticleMap::compare(const std::vector<std::uint32_t>& particles,
                                                       const std::vector<ParticleBatch>& batches) const {
-    std::vector<Change> out;
-    std::size_t k = 0, link = 0, at = 0;
-    for (const ParticleBatch& b : batches) {
-        std::size_t from = 0;
-        for (const std::uint32_t count : b.landing_count) {
-            const std::uint32_t particle = particles[k++];
-            while (particle >= links_[link].first_particle + links_[link].count) {
+    std::vector<std::size_t> first(batches.size() + 1, 0); // among the particles
+    for (std::size_t b = 0; b < batches.size(); ++b) {
+        first[b + 1] = first[b] + batches[b].landing_count.size();
+    }
+    std::vector<std::vector<Change>> parts(batches.size());
+    parallel_chunks(batches.size(), 1, [&](std::size_t b, std::size_t, std::size_t) {
+        std::size_t link = 0, at = 0, from = 0;
+        for (std::size_t k = first[b]; k < first[b + 1]; ++k) {
+            while (particles[k] >= links_[link].first_particle + links_[link].count) {
                 ++link;
             }
-            const auto index = std::uint32_t(particle - links_[link].first_particle);
-            const auto before = [&](const Landing& l, const std::pair<std::size_t, std::uint32_t>& key) {
-                return l.link != key.first ? l.link < key.first : l.index < key.second;
-            };
+            const auto index = std::uint32_t(particles[k] - links_[link].first_particle);
+            const auto before = [&](const Landing& l) { return l.link != link ? l.link < link : l.index < index; };
+            std::size_t step = 1; // what comes next is near, but for the first of a batch
+            while (at + step < landings_.size() && before(landings_[at + step])) {
+                at += step;
+                step *= 2;
+            }
+            const auto low = landings_.begin() + std::ptrdiff_t(at);
             at = std::size_t(
-                std::lower_bound(landings_.begin() + std::ptrdiff_t(at), landings_.end(), std::pair(link, index), before) -
+                std::partition_point(low, low + std::ptrdiff_t(std::min(step + 1, landings_.size() - at)), before) -
                 landings_.begin());
-            Change c{at, 0, std::span(b.landings).subspan(from, count)};
+            const std::uint32_t count = batches[b].landing_count[k - first[b]];
+            Change c{at, 0, std::span(batches[b].landings).subspan(from, count)};
             while (at < landings_.size() && landings_[at].link == link && landings_[at].index == index) {
                 ++at;
             }
             c.count = at - c.first;
             if (!std::equal(c.now.begin(), c.now.end(), landings_.begin() + std::ptrdiff_t(c.first),
                             landings_.begin() + std::ptrdiff_t(at))) {
-                out.push_back(c);
+                parts[b].push_back(c);
             }
             from += count;
         }
+    });
+    std::vector<Change> out;
+    for (const std::vector<Change>& part : parts) {
+        out.insert(out.end(), part.begin(), part.end());
     }
     return out;
 }
 
+// What lies between changes moves to its new place, without a second store: first all that moves to the front, in order,
+// then all that moves to the back, from the end.
 void ParticleMap::replace(const std::vector<Change>& changes) {
-    const bool in_place =
-        std::all_of(changes.begin(), changes.end(), [](const Change& c) { return c.count == c.now.size(); });
-    if (in_place) {
-        for (const Change& c : changes) {
-            std::copy(c.now.begin(), c.now.end(), landings_.begin() + std::ptrdiff_t(c.first));
-        }
-        return;
-    }
-    std::size_t size = landings_.size();
+    struct Run {
+        std::size_t from, to, count;
+    };
+    std::vector<Run> runs;
+    std::size_t at = 0, to = 0;
     for (const Change& c : changes) {
-        size += c.now.size() - c.count;
-    }
-    std::vector<Landing> out;
-    out.reserve(size);
-    std::size_t at = 0;
-    for (const Change& c : changes) {
-        out.insert(out.end(), landings_.begin() + std::ptrdiff_t(at), landings_.begin() + std::ptrdiff_t(c.first));
-        out.insert(out.end(), c.now.begin(), c.now.end());
+        runs.push_back({at, to, c.first - at});
+        to += c.first - at + c.now.size();
         at = c.first + c.count;
+        ParticleLink& link = links_[c.count > 0 ? landings_[c.first].link : c.now.front().link];
+        link.landings += c.now.size() - c.count;
     }
-    out.insert(out.end(), landings_.begin() + std::ptrdiff_t(at), landings_.end());
-    landings_ = std::move(out);
-    count_landings();
+    runs.push_back({at, to, landings_.size() - at});
+    const std::size_t size = to + runs.back().count;
+    if (size > landings_.capacity()) {
+        landings_.reserve(size + size / 16);
+    }
+    landings_.resize(std::max(size, landings_.size()));
+    for (const Run& r : runs) {
+        if (r.to < r.from) {
+            const auto from = landings_.begin() + std::ptrdiff_t(r.from);
+            std::copy(from, from + std::ptrdiff_t(r.count), landings_.begin() + std::ptrdiff_t(r.to));
+        }
+    }
+    for (auto r = runs.rbegin(); r != runs.rend(); ++r) {
+        if (r->to > r->from) {
+            const auto from = landings_.begin() + std::ptrdiff_t(r->from);
+            std::copy_backward(from, from + std::ptrdiff_t(r->count), landings_.begin() + std::ptrdiff_t(r->to + r->count));
+        }
+    }
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        std::copy(changes[i].now.begin(), changes[i].now.end(),
+                  landings_.begin() + std::ptrdiff_t(runs[i].to + runs[i].count));
+    }
+    landings_.resize(size);
+    std::size_t first = 0;
+    for (ParticleLink& l : links_) {
+        l.first = first;
+        first += l.landings;
+    }
 }
 
 ParticleUpdate ParticleMap::update(const ParticleScene& scene, std::span<const Box3> boxes,
@@ -168,33 +208,56 @@ ParticleUpdate ParticleMap::update(const ParticleScene& scene, std::span<const B
     if (context.should_stop()) {
         return out;
     }
-    std::vector<std::uint8_t> surfaces(scene.rays.surfaces().size(), 0);
     const std::vector<Change> changes = compare(particles, batches);
-    for (const Change& c : changes) {
-        mark(std::span(landings_).subspan(c.first, c.count), surfaces);
-        mark(c.now, surfaces);
-        out.landings += std::max(c.count, c.now.size());
-    }
-    for (const std::uint32_t s : moved) {
-        surfaces[s] = 1;
-    }
+    out.surfaces = changed_surfaces(scene, sources, moved, changes);
     std::size_t k = 0;
-    for (std::size_t i = 0; i < links.size(); ++i) { // brightness is no part of a landing
-        const ParticleLink& l = links[i];
-        if (sources[l.source].radiance != sources_[l.source].radiance) {
-            mark(std::span(landings_).subspan(l.first, l.landings), surfaces);
-        }
+    for (std::size_t i = 0; i < links.size(); ++i) {
         const std::size_t before = k;
-        while (k < particles.size() && particles[k] < l.first_particle + l.count) {
+        while (k < particles.size() && particles[k] < links[i].first_particle + links[i].count) {
             ++k;
         }
         out.links += k > before ? 1 : 0;
         out.re_aimed += whole[i];
     }
-    links_ = std::move(links);
+    const std::vector<ParticleLink> before = std::exchange(links_, std::move(links));
     sources_ = std::move(sources);
     replace(changes);
-    k = 0;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+        out.lit += links_[i].landings > 0 && before[i].landings == 0 ? 1 : 0;
+    }
+    keep_paths(particles, batches);
+    for (const Change& c : changes) {
+        out.landings += std::max(c.count, c.now.size());
+    }
+    out.particles = particles.size();
+    out.share = shares_.empty() ? 0.0 : double(particles.size()) / double(shares_.size());
+    out.complete = true;
+    out.store_seconds = seconds_since(clock);
+    return out;
+}
+
+std::vector<std::uint32_t> ParticleMap::changed_surfaces(const ParticleScene& scene,
+                                                         const std::vector<ParticleSource>& sources,
+                                                         std::span<const std::uint32_t> moved,
+                                                         const std::vector<Change>& changes) const {
+    std::vector<std::uint8_t> surfaces(scene.rays.surfaces().size(), 0);
+    for (const Change& c : changes) {
+        mark(std::span(landings_).subspan(c.first, c.count), surfaces);
+        mark(c.now, surfaces);
+    }
+    for (const ParticleLink& l : links_) { // brightness is no part of a landing
+        if (sources[l.source].radiance != sources_[l.source].radiance) {
+            mark(std::span(landings_).subspan(l.first, l.landings), surfaces);
+        }
+    }
+    for (const std::uint32_t s : moved) {
+        surfaces[s] = 1;
+    }
+    return marked(surfaces);
+}
+
+void ParticleMap::keep_paths(const std::vector<std::uint32_t>& particles, const std::vector<ParticleBatch>& batches) {
+    std::size_t k = 0;
     for (const ParticleBatch& b : batches) {
         std::size_t vertex = 0;
         for (std::size_t i = 0; i < b.vertex_count.size(); ++i, ++k) {
@@ -204,13 +267,10 @@ ParticleUpdate ParticleMap::update(const ParticleScene& scene, std::span<const B
         }
     }
     paths_->compact();
+    if (octree_) {
+        octree_->follow(*paths_, particles);
+    }
     sum_energy();
-    out.surfaces = marked(surfaces);
-    out.particles = particles.size();
-    out.share = shares_.empty() ? 0.0 : double(particles.size()) / double(shares_.size());
-    out.complete = true;
-    out.store_seconds = seconds_since(clock);
-    return out;
 }
 
 bool ParticleMap::retrace(const ParticleScene& scene, const RunContext& context) {

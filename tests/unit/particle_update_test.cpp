@@ -63,6 +63,8 @@ TEST(ParticleUpdate, PathsAreKeptOnlyWhenAskedForAndChangeNothing) {
     EXPECT_FALSE(without.keeps_paths());
     EXPECT_LT(without.memory_bytes() + with.paths().memory_bytes(), with.memory_bytes());
     ASSERT_EQ(with.paths().size(), with.emitted());
+    EXPECT_GE(with.emitted(), without.emitted()); // some that light nothing are watched
+    EXPECT_LE(with.emitted() - without.emitted(), settings.particles / 16);
     EXPECT_GT(with.paths().vertices(), 2 * with.emitted());
     EXPECT_TRUE(with.landings() == without.landings());
     EXPECT_NEAR(with.energy().emitted, without.energy().emitted, 1e-6 * without.energy().emitted);
@@ -122,6 +124,57 @@ struct Walk {
     std::unique_ptr<Staged> at;
     ParticleMap map;
 };
+
+TEST(ParticleUpdate, TheOctreeFindsWhatTheScanFinds) {
+    const Staged s(stage().scene);
+    const ParticleMap map = trace(s, 20'000);
+    PassageOctree octree(scene_reach(s.rays));
+    EXPECT_EQ(octree.cells(), 1U); // empty until something moves
+    std::size_t found = 0;
+    for (std::uint32_t i = 0; i < 60; ++i) { // boxes of all sizes; some partly outside of everything
+        const vec3 centre = 3.2F * (2.0F * vec3(sobol_owen(i, 0, 3), sobol_owen(i, 1, 3), sobol_owen(i, 2, 3)) - vec3(1.0F));
+        const vec3 half = vec3(0.01F + std::exp2(-float(i % 8)));
+        std::vector<Box3> boxes(2);
+        boxes[0].add(centre - half);
+        boxes[0].add(centre + half);
+        boxes[1].add(centre);
+        boxes[1].add(centre + vec3(half.x, 0.0F, 0.3F * half.z));
+        std::vector<std::uint8_t> scan(map.paths().size(), 0), tree = scan, one = scan;
+        map.paths().mark_crossing(boxes, scan);
+        octree.mark_crossing(map.paths(), boxes, tree);
+        for (std::size_t p = 0; p < one.size(); ++p) {
+            one[p] = map.paths().crosses(p, boxes) ? 1 : 0;
+            found += one[p];
+        }
+        ASSERT_TRUE(scan == one) << i;
+        ASSERT_TRUE(tree == one) << i;
+    }
+    EXPECT_GT(found, 0U);
+    EXPECT_LT(octree.cells(), 200U); // those behind are gone
+}
+
+TEST(ParticleUpdate, TheOctreeFollowsWhatIsTracedAgain) {
+    Stage set = stage();
+    auto at = std::make_unique<Staged>(set.scene);
+    ParticleMap scan = trace(*at, 20'000);
+    ParticleSettings settings = keeping(20'000);
+    settings.passage_octree = true;
+    ParticleMap tree(at->rays, at->targets, at->direct, at->emitters, {}, settings, RunContext{});
+    for (std::uint32_t i = 0; i < 24; ++i) {
+        const NodeId id = i % 8 == 5 ? set.ball : set.box;
+        set.scene.nodes.find(id)->transform.translation =
+            id == set.box ? place(i / 2) + dvec3(0.1 * (i % 2), 0, 0) : dvec3(-0.6, 0.5, -0.5 + 0.05 * i);
+        auto next = std::make_unique<Staged>(set.scene);
+        const Moved moved(at->rays, next->rays);
+        const ParticleUpdate a = scan.update(next->particle_scene(), moved.boxes, moved.surfaces, RunContext{});
+        const ParticleUpdate b = tree.update(next->particle_scene(), moved.boxes, moved.surfaces, RunContext{});
+        EXPECT_EQ(a.particles, b.particles);
+        expect_same(scan, tree);
+        at = std::move(next);
+    }
+    EXPECT_GT(tree.octree()->cells(), 1U);
+    EXPECT_GT(tree.memory_bytes(), scan.memory_bytes());
+}
 
 TEST(ParticleUpdate, TargetsAndSourcesThatMoveAreAimedAnew) {
     Walk walk(stage());
@@ -218,6 +271,34 @@ TEST(ParticleUpdate, BrightnessTracesNothing) {
     EXPECT_TRUE(walk.map.landings() == before);
 }
 
+// A mirror that throws the sun back at the sky lights nothing until something comes into its way.
+TEST(ParticleUpdate, LinksThatLightNothingAreWatched) {
+    Stage set;
+    test::add_rectangle(set.scene, "floor", {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, 6.0F, 6.0F,
+                        test::add_material(set.scene, 0.6F));
+    test::add_rectangle(set.scene, "mirror", {-1, 0.5, 0}, {0, 1, 0}, {1, 0, 0}, 0.5F, 0.5F,
+                        test::add_specular(set.scene, false));
+    set.box = test::add_shape(set.scene, Box{vec3(0.3F)}, {0, 1.2, 2}, test::add_material(set.scene, 0.6F));
+    test::add_sun(set.scene, {1, -1, 0}, 1e5F);
+    Walk walk(std::move(set));
+    const ParticleMap start = walk.map;
+    ASSERT_FALSE(start.links().empty());
+    EXPECT_TRUE(start.landings().empty());
+    walk.node(walk.set.box).transform.translation = {-0.3, 1.2, 0};
+    const ParticleUpdate there = walk.step();
+    EXPECT_EQ(there.lit, 1U);
+    double power = 0.0;
+    for (const Landing& l : walk.map.landings()) {
+        power += l.bends == 1 ? double(luminance(walk.map.power(l))) : 0.0;
+    }
+    const double beam = 0.5 * std::sqrt(0.5); // as high as the mirror shows; the box is higher than that and 0.3 wide
+    EXPECT_NEAR(power, 0.9 * 1e5 * beam * 0.3, 0.03 * 1e5 * beam * 0.3);
+    expect_same(walk.map, walk.full(start));
+    walk.node(walk.set.box).transform.translation = {0, 1.2, 2};
+    EXPECT_EQ(walk.step().lit, 0U);
+    expect_same(walk.map, start);
+}
+
 void expect_same(const CausticLight& a, const CausticLight& b) {
     ASSERT_EQ(a.sides.size(), b.sides.size());
     for (std::size_t i = 0; i < a.sides.size(); ++i) {
@@ -235,18 +316,19 @@ void expect_same(const CausticLight& a, const CausticLight& b) {
 
 TEST(ParticleUpdate, TexturesOfOtherSurfacesStay) {
     Walk walk(stage(), 60'000);
-    const CausticSettings settings;
+    CausticSettings settings;
+    settings.most_texels = 1U << 16U;
     const ChartSettings charting;
     CausticLight light = build_caustic_light(walk.at->rays, chart_surfaces(walk.at->rays, charting), walk.map, settings);
     ASSERT_GT(light.texture_count(), 0U);
     std::size_t kept = 0, made = 0;
     const Transform home = walk.node(walk.set.box).transform;
-    for (std::uint32_t i = 0; i < 12; ++i) {
+    for (std::uint32_t i = 0; i < 8; ++i) {
         Node& node = walk.node(i % 6 == 4 ? walk.set.ball : walk.set.box);
         node.transform.translation += i % 6 == 4 ? dvec3(0.05, 0, 0.02) : dvec3(0);
         if (i % 6 != 4) {
             node.transform = home;
-            node.transform.translation = i == 11 ? home.translation : place(i);
+            node.transform.translation = i == 7 ? home.translation : place(i);
         }
         const ParticleUpdate update = walk.step();
         ASSERT_TRUE(update.complete);
