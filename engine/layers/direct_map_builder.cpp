@@ -74,13 +74,13 @@ struct LiveDirectMaps::Impl {
     RepairReport repair(const LightChange& change, DirectMaps& maps, const RunContext& context) {
         context_ = &context;
         RepairReport out;
-        std::vector<std::uint8_t> changed(sheets_.sheets().size(), 0);
+        changed_.resize(sheets_.sheets().size(), 0);
         std::size_t before = 0;
         for (const LightPart& part : parts_) {
             before += part.samples_taken();
         }
         for (LightPart& part : parts_) {
-            if (!part.repair(change, context, changed)) {
+            if (!part.repair(change, context, changed_)) {
                 return out;
             }
         }
@@ -89,8 +89,8 @@ struct LiveDirectMaps::Impl {
         }
         out.samples -= before;
         std::vector<std::uint8_t> of_surface(charts_.size(), 0);
-        for (std::size_t i = 0; i < changed.size(); ++i) {
-            of_surface[sheets_.sheets()[i].surface] |= changed[i];
+        for (std::size_t i = 0; i < changed_.size(); ++i) {
+            of_surface[sheets_.sheets()[i].surface] |= changed_[i];
         }
         assemble([&](std::uint32_t surface) { return of_surface[surface] != 0; }, maps);
         for (std::uint32_t s = 0; s < of_surface.size(); ++s) {
@@ -99,6 +99,9 @@ struct LiveDirectMaps::Impl {
             }
         }
         out.complete = !context.should_stop();
+        if (out.complete) {
+            changed_.clear();
+        }
         return out;
     }
 
@@ -195,7 +198,8 @@ private:
     const RunContext* context_; ///< of the call at hand
     TileBudget budget_;
     std::vector<LightPart> parts_;
-    std::vector<SheetPlace> places_; ///< of all sheets
+    std::vector<SheetPlace> places_;     ///< of all sheets
+    std::vector<std::uint8_t> changed_; ///< per sheet: samples are new that no map shows yet
 };
 
 LiveDirectMaps::LiveDirectMaps(const RayScene& rays, std::span<const SurfaceCharts> charts, std::vector<DirectPart> parts,

@@ -23,8 +23,9 @@ struct DirectPart {
     /// From large sources only (sky through windows, panels): no streak is narrower than the first cells, so none is looked
     /// for between the samples, and texels of four times the finest size will do.
     bool soft = false;
-    /// A change within the box may change the light at the point; anything may when empty. Called from many threads.
-    std::function<bool(const vec3& point, const Box3& box)> touched;
+    /// A change within the box may change the light at the point, or at any within `radius` of it; anything may when empty.
+    /// Called from many threads.
+    std::function<bool(const vec3& point, float radius, const Box3& box)> touched = {};
 };
 
 /// What moved: where to look for light that changed.
@@ -78,7 +79,7 @@ public:
     DirectMaps build(double progress_from, double progress_to);
     /// Looks again at the samples that a change touches, closer where edges of shadows come to lie, and replaces the maps of
     /// `maps` (what build() made) whose light changed. Cells are never joined again; soft parts are looked at on the
-    /// coarsest grid, and finer samples follow by interpolation of the change.
+    /// coarsest grid where what moved looks largest, and finer samples follow by interpolation of the change.
     RepairReport repair(const LightChange& change, DirectMaps& maps, const RunContext& context);
     [[nodiscard]] std::size_t memory_bytes() const;
 

@@ -209,49 +209,127 @@ void LightPart::take(const Request& request) {
 // ---- repair
 
 // Where a place lies, by the chart's plane: enough to tell whether a change may reach it.
-bool LightPart::may_change(const LightChange& change, std::uint32_t sheet, const vec2& steps) const {
+std::optional<vec3> LightPart::place_of(std::uint32_t sheet, const vec2& steps) const {
     const LightSheet& s = sheets_.sheets()[sheet];
-    if (change.moved[s.surface] != 0 || !part_.touched) {
+    const vec2 at = steps * metres_per_step(sheet);
+    if (s.chart->planar) {
+        return s.chart->origin + s.chart->axis_u * at.x + s.chart->axis_v * at.y;
+    }
+    const auto place = sheets_.locate(sheet, at, std::max(s.chart->scale.x, s.chart->scale.y));
+    return place ? std::optional(place->point) : std::nullopt;
+}
+
+bool LightPart::may_change(const LightChange& change, std::uint32_t sheet, const vec2& steps, float radius) const {
+    if (change.moved[sheets_.sheets()[sheet].surface] != 0 || !part_.touched) {
         return true;
     }
-    const vec2 at = steps * metres_per_step(sheet);
-    vec3 point;
-    if (s.chart->planar) {
-        point = s.chart->origin + s.chart->axis_u * at.x + s.chart->axis_v * at.y;
-    } else if (const auto place = sheets_.locate(sheet, at, glm::length(metres_per_step(sheet)))) {
-        point = place->point;
-    } else {
-        return false;
+    const auto point = place_of(sheet, steps);
+    return point && std::any_of(change.boxes.begin(), change.boxes.end(), [&](const Box3& box) {
+               const vec3 off = glm::max(glm::max(box.min - *point, *point - box.max), vec3(0.0F));
+               return glm::length(off) <= settings_.cover_reach + radius || part_.touched(*point, radius, box);
+           });
+}
+
+// Per tile over all sheets: whether any place on it may change.
+std::vector<std::uint8_t> LightPart::tiles_to_look_at(const LightChange& change) const {
+    struct Tile {
+        std::uint32_t sheet, u, v;
+    };
+    std::vector<Tile> tiles;
+    for (std::uint32_t i = 0; i < sheets_.sheets().size(); ++i) {
+        const Chart& chart = *sheets_.sheets()[i].chart;
+        for (std::uint32_t k = 0; k < chart.tiles_u * chart.tiles_v; ++k) {
+            tiles.push_back({i, k % chart.tiles_u, k / chart.tiles_u});
+        }
     }
-    return std::any_of(change.boxes.begin(), change.boxes.end(), [&](const Box3& box) {
-        const vec3 off = glm::max(glm::max(box.min - point, point - box.max), vec3(0.0F));
-        return glm::length(off) <= settings_.cover_reach || part_.touched(point, box);
+    std::vector<std::uint8_t> out(tiles.size(), 0);
+    const auto edge = float(cells_.steps_per_tile());
+    parallel_chunks(tiles.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Tile& t = tiles[i];
+            const LightSheet& sheet = sheets_.sheets()[t.sheet];
+            if (sheet.used[t.v * sheet.chart->tiles_u + t.u] == 0) {
+                continue;
+            }
+            const vec2 middle = vec2(float(t.u) + 0.5F, float(t.v) + 0.5F) * edge;
+            // Places of round charts are looked for one by one.
+            const bool may =
+                !sheet.chart->planar || may_change(change, t.sheet, middle, 0.5F * glm::length(sheet.chart->scale));
+            out[i] = may ? 1 : 0;
+        }
     });
+    return out;
+}
+
+// Soft light costs many rays: of very many nodes those from where what moved looks largest, in order of index.
+void LightPart::keep_most_seen(const LightChange& change, std::vector<std::uint32_t>& nodes) const {
+    constexpr std::size_t kMost = 1024;
+    if (nodes.size() <= kMost) {
+        return;
+    }
+    std::vector<std::pair<float, std::uint32_t>> seen;
+    for (const std::uint32_t i : nodes) {
+        const LightNode& n = cells_.nodes[i];
+        float angle = 0.0F;
+        const auto point = place_of(n.sheet, vec2(float(n.x), float(n.y)));
+        for (const Box3& box : change.boxes) {
+            angle = point ? std::max(angle, box.diagonal() / std::max(glm::length(box.centre() - *point), 1e-3F)) : angle;
+        }
+        seen.emplace_back(-angle, i);
+    }
+    std::nth_element(seen.begin(), seen.begin() + kMost, seen.end());
+    seen.resize(kMost);
+    nodes.clear();
+    for (const auto& [angle, i] : seen) {
+        nodes.push_back(i);
+    }
+    std::sort(nodes.begin(), nodes.end());
 }
 
 // Requests for the nodes and probes that a change may reach; the nodes.
 std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
+    const std::vector<std::uint8_t> tiles = tiles_to_look_at(change);
     const std::uint32_t coarse = cells_.steps(cells_.first_level()) - 1;
+    // Nodes on a common edge belong to the tile behind it; the tile before it is asked too.
+    const auto on_tile = [&](std::uint32_t sheet, std::uint32_t x, std::uint32_t y) {
+        const Chart& chart = *sheets_.sheets()[sheet].chart;
+        const unsigned shift = cells_.max_level();
+        bool any = false;
+        for (std::uint32_t k = 0; k < 4 && !any; ++k) {
+            const std::uint32_t dx = k & 1U, dy = k >> 1U;
+            if (x >= dx && y >= dy && (x - dx) >> shift < chart.tiles_u && (y - dy) >> shift < chart.tiles_v) {
+                any = tiles[cells_.tile_index(sheet, (x - dx) >> shift, (y - dy) >> shift)] != 0;
+            }
+        }
+        return any;
+    };
     std::vector<std::uint8_t> hit(cells_.nodes.size(), 0);
     parallel_chunks(hit.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context_->should_stop(); ++i) {
             const LightNode& n = cells_.nodes[i];
             const bool skipped = part_.soft && ((n.x | n.y) & coarse) != 0;
-            hit[i] = !skipped && n.state != State::Void && may_change(change, n.sheet, vec2(float(n.x), float(n.y))) ? 1 : 0;
+            const bool asks = !skipped && n.state != State::Void && on_tile(n.sheet, n.x, n.y) &&
+                              may_change(change, n.sheet, vec2(float(n.x), float(n.y)), 0.0F);
+            hit[i] = asks ? 1 : 0;
         }
     });
     std::vector<std::uint32_t> asked;
     for (std::uint32_t i = 0; i < hit.size(); ++i) {
         if (hit[i] != 0) {
-            const LightNode& n = cells_.nodes[i];
-            Request r;
-            r.sheet = n.sheet;
-            r.index = i;
-            r.at = vec2(float(n.x), float(n.y)) * metres_per_step(n.sheet);
-            r.reach = glm::length(metres_per_step(n.sheet)) * float(cells_.steps(cells_.first_level()));
-            requests_.push_back(r);
             asked.push_back(i);
         }
+    }
+    if (part_.soft) {
+        keep_most_seen(change, asked);
+    }
+    for (const std::uint32_t i : asked) {
+        const LightNode& n = cells_.nodes[i];
+        Request r;
+        r.sheet = n.sheet;
+        r.index = i;
+        r.at = vec2(float(n.x), float(n.y)) * metres_per_step(n.sheet);
+        r.reach = glm::length(metres_per_step(n.sheet)) * float(cells_.steps(cells_.first_level()));
+        requests_.push_back(r);
     }
     if (part_.soft) {
         return asked;
@@ -261,7 +339,9 @@ std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
         const std::size_t end = sheet + 1 < first_probe_.size() ? first_probe_[sheet + 1] : probes_.size();
         for (std::size_t i = first_probe_[sheet]; i < end; ++i) {
             Probe& probe = probes_[i];
-            if ((probe.seen.known || probe.covered) && may_change(change, sheet, probe.at)) {
+            if ((probe.seen.known || probe.covered) &&
+                on_tile(sheet, std::uint32_t(probe.at.x), std::uint32_t(probe.at.y)) &&
+                may_change(change, sheet, probe.at, 0.0F)) {
                 Request r;
                 r.sheet = sheet;
                 r.index = std::uint32_t(i);

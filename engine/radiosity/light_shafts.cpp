@@ -6,9 +6,10 @@
 namespace atrium {
 namespace {
 
-// Sight past a window or around a corner of the hemisphere that a box fills less of than this is left for the full update:
-// tangent of the half angle.
-constexpr float kSmallestCone = 0.04F;
+// What fills less of the hemisphere than a cone of this half angle (tangent), or hides less than this share of one source,
+// is left for the full solution.
+constexpr float kSmallestCone = 0.1F;
+constexpr float kSmallestShare = 0.05F;
 
 // The part of a ray up to `end` crosses a box that is `swell` larger all round.
 bool crosses(const vec3& origin, const vec3& direction, float end, const Box3& box, float swell) {
@@ -47,18 +48,19 @@ Box3 mirrored(const Box3& box, const PlanarMirror& mirror) {
 
 } // namespace
 
-bool shaft_to_sun_touches(const vec3& point, const vec3& direction, float spread, const Box3& box) {
-    return crosses(point, direction, std::numeric_limits<float>::infinity(), box, kRounding + spread * farthest(point, box));
+bool shaft_to_sun_touches(const vec3& point, float from, const vec3& direction, float spread, const Box3& box) {
+    return crosses(point, direction, std::numeric_limits<float>::infinity(), box,
+                   kRounding + from + spread * farthest(point, box));
 }
 
-bool shaft_to_ball_touches(const vec3& point, const vec3& centre, float radius, const Box3& box) {
+bool shaft_to_ball_touches(const vec3& point, float from, const vec3& centre, float radius, const Box3& box) {
     const vec3 d = centre - point;
     const float distance = glm::length(d);
-    if (!(distance > radius)) {
+    if (!(distance > radius + from)) {
         return true; // inside or beside it: all round
     }
     const float far = farthest(point, box);
-    return crosses(point, d / distance, distance + radius, box, kRounding + radius * std::min(far / distance, 1.0F));
+    return crosses(point, d / distance, distance + radius, box, kRounding + from + radius * std::min(far / distance, 1.0F));
 }
 
 void LightShafts::add_lamps(const DirectLight& lights) {
@@ -123,31 +125,36 @@ void LightShafts::add_sky(const SkyLight& sky) {
     all_round_ = sky.elsewhere();
 }
 
-bool LightShafts::straight(const vec3& point, const Box3& box) const {
-    if (all_round_) {
-        const vec3 to = 0.5F * (box.min + box.max) - point;
-        const float radius = 0.5F * glm::length(box.max - box.min);
-        if (radius > kSmallestCone * glm::length(to)) {
-            return true;
-        }
+bool LightShafts::straight(const vec3& point, float radius, const Box3& box) const {
+    const vec3 to = 0.5F * (box.min + box.max) - point;
+    const float half = 0.5F * glm::length(box.max - box.min);
+    const float near = std::max(glm::length(to) - radius, 1e-6F);
+    if (all_round_ && half > kSmallestCone * near) {
+        return true;
     }
+    // What the box may hide of a ball is at most the ratio of the solid angles that they fill.
+    const auto worth = [&](const Ball& b) {
+        const float seen = b.radius / std::max(glm::length(b.centre - point) - radius, 1e-6F);
+        return half > near || half * half >= kSmallestShare * seen * seen * near * near;
+    };
     return std::any_of(suns_.begin(), suns_.end(),
-                       [&](const Sun& s) { return shaft_to_sun_touches(point, s.direction, s.spread, box); }) ||
-           std::any_of(balls_.begin(), balls_.end(),
-                       [&](const Ball& b) { return shaft_to_ball_touches(point, b.centre, b.radius, box); });
+                       [&](const Sun& s) { return shaft_to_sun_touches(point, radius, s.direction, s.spread, box); }) ||
+           std::any_of(balls_.begin(), balls_.end(), [&](const Ball& b) {
+               return worth(b) && shaft_to_ball_touches(point, radius, b.centre, b.radius, box);
+           });
 }
 
-bool LightShafts::touched(const vec3& point, const Box3& box) const {
+bool LightShafts::touched(const vec3& point, float radius, const Box3& box) const {
     if (mirrors_.empty()) {
-        return straight(point, box);
+        return straight(point, radius, box);
     }
     // From the image the way to the mirror meets mirrored things, the way on from it real ones.
     return std::any_of(mirrors_.begin(), mirrors_.end(), [&](const PlanarMirror& mirror) {
-        if (!mirror.both_sides && mirror.height(point) <= 0.0) {
+        if (!mirror.both_sides && mirror.height(point) <= -radius) {
             return false;
         }
         const vec3 image = mirror.reflect_point(point);
-        return straight(image, box) || straight(image, mirrored(box, mirror));
+        return straight(image, radius, box) || straight(image, radius, mirrored(box, mirror));
     });
 }
 

@@ -11,8 +11,8 @@
 namespace atrium {
 
 /// Sources as directions with an angle and balls around what shines. A shaft is what lies between a point and a source; what
-/// no box of a change touches keeps its light to the bit. Conservative: never misses a touched shaft of a source that it
-/// knows, now and then names one that is not touched. Immutable; safe from any thread.
+/// no box of a change touches keeps its light to the bit. Boxes that can take away next to nothing of a large source's light
+/// are not looked at: this is for updates that a full solution follows. Immutable; safe from any thread.
 class LightShafts {
 public:
     /// Sun, point and spot lights.
@@ -24,8 +24,8 @@ public:
     /// From here on everything added is seen over the flat mirrors instead of straight.
     void over_mirrors(const PlanarMirrors& mirrors) { mirrors_ = mirrors.mirrors(); }
 
-    /// A box touches a shaft of this point.
-    [[nodiscard]] bool touched(const vec3& point, const Box3& box) const;
+    /// A box touches a shaft of this point, or of any within `radius` of it.
+    [[nodiscard]] bool touched(const vec3& point, float radius, const Box3& box) const;
     [[nodiscard]] bool empty() const { return suns_.empty() && balls_.empty() && !all_round_; }
 
 private:
@@ -37,7 +37,7 @@ private:
         vec3 centre;
         float radius;
     };
-    [[nodiscard]] bool straight(const vec3& point, const Box3& box) const;
+    [[nodiscard]] bool straight(const vec3& point, float radius, const Box3& box) const;
 
     std::vector<Sun> suns_;
     std::vector<Ball> balls_;
@@ -45,9 +45,9 @@ private:
     bool all_round_ = false;
 };
 
-/// The shaft from a point to a ball, or along a unit direction with a growing radius, touches a box: exact but for the
-/// corners of the swollen box.
-bool shaft_to_ball_touches(const vec3& point, const vec3& centre, float radius, const Box3& box);
-bool shaft_to_sun_touches(const vec3& point, const vec3& direction, float spread, const Box3& box);
+/// The shaft from a ball of radius `from` around a point to another ball, or along a unit direction with a growing radius,
+/// touches a box: exact but for the corners of the swollen box.
+bool shaft_to_ball_touches(const vec3& point, float from, const vec3& centre, float radius, const Box3& box);
+bool shaft_to_sun_touches(const vec3& point, float from, const vec3& direction, float spread, const Box3& box);
 
 } // namespace atrium

@@ -61,7 +61,16 @@ struct EngineSession::Impl {
     void run() {
         std::unique_lock lock(mutex);
         for (;;) {
-            changed.wait(lock, [&] { return quit || pending_load || !mailbox.empty() || scheduler.should_start(); });
+            const auto busy = [&] {
+                return quit || pending_load || !mailbox.empty() || scheduler.should_start(Clock::now());
+            };
+            while (!busy()) { // until the hand has rested, where that is what is waited for
+                if (const auto start = scheduler.start_time(); start == QualityScheduler::Time::max()) {
+                    changed.wait(lock);
+                } else {
+                    changed.wait_until(lock, start);
+                }
+            }
             if (quit) {
                 return;
             }
@@ -74,7 +83,7 @@ struct EngineSession::Impl {
                 scheduler.on_failure();
                 message = refusal;
             }
-            if (scheduler.should_start() && !pending_load && mailbox.empty() && !quit) {
+            if (scheduler.should_start(Clock::now()) && !pending_load && mailbox.empty() && !quit) {
                 solve_once(lock);
             }
             lock.unlock();
@@ -103,7 +112,9 @@ struct EngineSession::Impl {
 
     /// Called and left with the lock held; the solve itself runs without.
     void solve_once(std::unique_lock<std::mutex>& lock) {
-        scheduler.on_started();
+        const QualityScheduler::Kind kind = scheduler.kind();
+        const bool unsettled = scheduler.unsettled();
+        scheduler.on_started(kind);
         running_stop = StopFlag();
         started = Clock::now();
         phase.clear();
@@ -112,7 +123,8 @@ struct EngineSession::Impl {
         const StopFlag stop = running_stop;
         lock.unlock();
         tell();
-        Ended ended = solve_guarded(stop);
+        Ended ended = solve_guarded(stop, kind, unsettled);
+        const bool updatable = ended.picture && ended.picture->updatable;
         lock.lock();
         if (ended.picture && !scheduler.abandoned() && ended.picture != latest) {
             publish(std::move(ended.picture));
@@ -120,25 +132,34 @@ struct EngineSession::Impl {
         if (ended.outcome == QualityScheduler::Outcome::Failed && !scheduler.abandoned()) {
             message = std::move(ended.message);
         }
-        scheduler.on_finished(ended.outcome);
+        scheduler.on_finished(ended.outcome, updatable);
         phase.clear();
         last_duration = Clock::now() - started;
     }
 
-    Ended solve_guarded(const StopFlag& stop) {
+    Ended solve_guarded(const StopFlag& stop, QualityScheduler::Kind kind, bool unsettled) {
         using Outcome = QualityScheduler::Outcome;
         RunContext context;
         context.stop = stop;
         context.on_progress = [&](const Progress& p) { on_progress(p); };
-        const SolveOptions options{scene.settings.quality, scene.settings.seed, 0.0, revision};
+        SolveOptions options;
+        options.quality = scene.settings.quality;
+        options.seed = scene.settings.seed;
+        options.revision = revision;
+        options.keep_for_updates = true;
+        options.hurried = kind == QualityScheduler::Kind::Hurried;
+        options.skip_first_picture = unsettled;
         try {
             auto result = solve(scene, options, context, [&](const Picture& picture) { on_snapshot(picture); });
             if (!result) {
-                const bool asked = stop.stop_requested();
-                return {asked ? Outcome::Stopped : Outcome::Failed, nullptr, result.error().message()};
+                const Outcome failed = options.hurried ? Outcome::Unfit : Outcome::Failed;
+                return {stop.stop_requested() ? Outcome::Stopped : failed, nullptr, result.error().message()};
             }
             if (*result == nullptr) {
                 return {Outcome::Failed, nullptr, "The light simulation returned no picture."};
+            }
+            if (options.hurried && (*result)->statistics.update.degraded) {
+                return {Outcome::Hurried, *result, {}};
             }
             return {(*result)->final ? Outcome::Final : Outcome::Stopped, *result, {}};
         } catch (const std::bad_alloc&) {
@@ -253,6 +274,8 @@ struct EngineSession::Impl {
         case QualityScheduler::State::Failed: out.state = SessionStatus::State::Failed; break;
         }
         const bool solving = out.state == SessionStatus::State::Solving;
+        out.moving = scheduler.moving();
+        out.settling = scheduler.unsettled() || (latest != nullptr && latest->statistics.update.degraded);
         out.posted_revision = posted_revision;
         if (latest != nullptr) {
             // Edits since then that leave light alone leave the picture true.

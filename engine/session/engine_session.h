@@ -17,6 +17,8 @@ struct SessionStatus {
     State state = State::Idle;
     std::uint64_t posted_revision = 0; ///< newest edit in the mailbox or applied
     std::uint64_t shown_revision = 0;  ///< of latest(); lower = the picture is stale
+    bool moving = false;               ///< latest() follows a hand in a hurry
+    bool settling = false;             ///< latest() was made in a hurry, and the full solution is still to come
     std::string phase;                 ///< "visibility", "layers", ...; empty when idle
     double fraction = 0;               ///< 0 to 1
     double elapsed_seconds = 0;
@@ -44,8 +46,8 @@ public:
     /// Starts over with another document. `stored` (may be null) is shown at once; with it nothing is solved until an edit.
     void load(Scene scene, std::uint64_t revision, std::shared_ptr<const Solution> stored);
     /// Posts one edit of the document, already applied there. Never blocks, never refuses; a newer placement replaces a
-    /// pending one (supersedes()). While `in_gesture` a running solve goes on; the first edit after it (or 200 ms of rest)
-    /// stops the stale solve and starts the next.
+    /// pending one (supersedes()). While `in_gesture` light follows by hurried updates; the first edit after it (or
+    /// 200 ms of rest) starts the full solution. See QualityScheduler.
     void post(const SceneEdit& edit, std::uint64_t revision, bool in_gesture);
     /// Ends a gesture: what was collected may be solved now.
     void end_gesture();

@@ -6,6 +6,8 @@ namespace atrium {
 
 void QualityScheduler::on_load(bool has_picture, bool complete) {
     needed_ = !has_picture;
+    updatable_ = false;
+    unsettled_ = false;
     complete_ = complete;
     cancelled_ = false;
     failed_ = false;
@@ -41,12 +43,14 @@ void QualityScheduler::on_resume() {
     }
 }
 
-void QualityScheduler::on_started() {
+void QualityScheduler::on_started(Kind kind) {
     running_ = true;
+    running_kind_ = kind;
     needed_ = false;
 }
 
-void QualityScheduler::on_finished(Outcome outcome) {
+void QualityScheduler::on_finished(Outcome outcome, bool updatable) {
+    const Kind kind = std::exchange(running_kind_, Kind::Full);
     running_ = false;
     stopping_ = false;
     if (std::exchange(abandoned_, false)) {
@@ -54,12 +58,20 @@ void QualityScheduler::on_finished(Outcome outcome) {
     }
     switch (outcome) {
     case Outcome::Final:
+        updatable_ = updatable;
+        unsettled_ = false;
         if (!needed_) {
             complete_ = true;
             cancelled_ = false; // it was done before it heard
         }
         break;
+    case Outcome::Hurried: unsettled_ = true; break;
+    case Outcome::Unfit:
+        updatable_ = false;
+        needed_ = true;
+        break;
     case Outcome::Stopped:
+        unsettled_ = unsettled_ || kind == Kind::Hurried;
         if (cancelled_) {
             needed_ = true; // still wanted, once it may go on
         }
@@ -77,11 +89,24 @@ void QualityScheduler::on_failure() {
     needed_ = true;
 }
 
+QualityScheduler::Time QualityScheduler::start_time() const {
+    if (running_ || cancelled_ || failed_ || !(needed_ || unsettled_)) {
+        return Time::max();
+    }
+    return needed_ || !in_gesture_ ? Time::min() : last_edit_ + kRest;
+}
+
 QualityScheduler::Time QualityScheduler::stop_time() const {
     if (!running_) {
         return Time::max();
     }
-    if (abandoned_ || cancelled_ || (needed_ && !in_gesture_)) {
+    if (abandoned_ || cancelled_) {
+        return Time::min();
+    }
+    if (running_kind_ == Kind::Hurried) {
+        return Time::max(); // it is short
+    }
+    if (needed_ && (!in_gesture_ || updatable_)) {
         return Time::min();
     }
     return needed_ ? last_edit_ + kRest : Time::max();
@@ -94,7 +119,7 @@ QualityScheduler::State QualityScheduler::state() const {
     if (cancelled_) {
         return State::Stopped;
     }
-    return (running_ && !abandoned_) || needed_ ? State::Solving : State::Idle;
+    return (running_ && !abandoned_) || needed_ || unsettled_ ? State::Solving : State::Idle;
 }
 
 } // namespace atrium

@@ -7,8 +7,9 @@
 
 namespace atrium {
 
-/// One solve at a time, always of the newest scene. Outside a gesture an edit stops a stale solve at once; within a gesture
-/// the solve runs on, so that there is light to see while dragging, until the hand rests or lets go.
+/// One solve at a time, always of the newest scene. Outside a gesture an edit stops a stale solve at once. Within a gesture
+/// light follows by hurried updates, if the engine keeps a complete solution to start from; the full solve comes when the
+/// hand rests or lets go. Without one the running solve goes on until then, so that there is light to see while dragging.
 class QualityScheduler {
 public:
     using Time = RunContext::Clock::time_point;
@@ -18,9 +19,12 @@ public:
 
     enum class Outcome : std::uint8_t {
         Final,   ///< the solution is complete
+        Hurried, ///< an update in a hurry is done: a full solve is still to come
+        Unfit,   ///< the change was not one that can be done in a hurry
         Stopped, ///< it ended early
         Failed
     };
+    enum class Kind : std::uint8_t { Full, Hurried };
     enum class State : std::uint8_t { Idle, Solving, Stopped, Failed };
 
     /// Another document. `has_picture`: it came with a solution, so nothing runs until an edit; `complete`: a final one.
@@ -29,14 +33,18 @@ public:
     void on_gesture_end();
     void on_cancel();
     void on_resume();
-    void on_started();
+    void on_started(Kind kind = Kind::Full);
     /// Reports the end of the solve that on_started() announced.
-    void on_finished(Outcome outcome);
+    /// `updatable`: the engine keeps what hurried updates start from.
+    void on_finished(Outcome outcome, bool updatable = false);
     /// Something other than a solve went wrong; nothing starts until the next edit or resume.
     void on_failure();
 
-    /// Nothing runs and the newest scene wants a solve.
-    [[nodiscard]] bool should_start() const { return !running_ && needed_ && !cancelled_ && !failed_; }
+    /// Nothing runs and the newest scene wants a solve, of this kind.
+    [[nodiscard]] bool should_start(Time now) const { return start_time() <= now; }
+    [[nodiscard]] Kind kind() const { return needed_ && in_gesture_ && updatable_ ? Kind::Hurried : Kind::Full; }
+    /// When should_start() will become true if nothing else happens; Time::max() = never.
+    [[nodiscard]] Time start_time() const;
     /// The running solve is of no more use.
     [[nodiscard]] bool should_stop(Time now) const { return stop_time() <= now; }
     /// When should_stop() will become true if nothing else happens; Time::max() = never.
@@ -45,9 +53,15 @@ public:
     [[nodiscard]] bool abandoned() const { return abandoned_; }
     [[nodiscard]] bool running() const { return running_ && !abandoned_; }
     [[nodiscard]] State state() const;
+    /// The light on show follows a hand that has not let go, or has been followed by no full solve yet.
+    [[nodiscard]] bool moving() const { return in_gesture_ && (unsettled_ || running_kind_ == Kind::Hurried); }
+    [[nodiscard]] bool unsettled() const { return unsettled_; }
 
 private:
     bool running_ = false;
+    bool updatable_ = false; ///< hurried updates have something to start from
+    bool unsettled_ = false; ///< the newest light was made in a hurry
+    Kind running_kind_ = Kind::Full;
     bool needed_ = false;    ///< a solve must start after (or instead of) the running one
     bool complete_ = false;  ///< the newest scene has its final solution
     bool cancelled_ = false; ///< until the next edit of light or resume

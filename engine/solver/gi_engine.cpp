@@ -62,6 +62,9 @@ bool GiEngine::has_solution() const { return impl_->solved; }
 Result<std::shared_ptr<const Solution>>
 GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContext& context,
                 const std::function<void(std::shared_ptr<const Solution>)>& on_snapshot) {
+    if (options.hurried) {
+        return update(scene, options, context);
+    }
     // What drags need of the last complete light stays until this one is complete.
     auto fresh = std::make_unique<Impl>();
     Impl& s = *fresh;
@@ -89,6 +92,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         auto solution = std::make_shared<Solution>();
         solution->revision = options.revision;
         solution->final = final;
+        solution->updatable = final && options.keep_for_updates;
         solution->mean_radiance = layers.mean_radiance;
         statistics.error_estimate = std::hypot(layers.error_estimate, leaf_error);
         statistics.memory.layers = layers.memory_bytes();

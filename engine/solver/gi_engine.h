@@ -21,6 +21,7 @@ struct SolveOptions {
     std::uint32_t particles = 0; ///< emitted at most; 0 = what the quality stands for
     /// update() will follow: the complete solution keeps what that needs, and stays in place until the next is complete.
     bool keep_for_updates = false;
+    bool hurried = false; ///< update() is asked for: solve() hands on to it
     /// Light is on show that is better than a first, coarse picture: none is made.
     bool skip_first_picture = false;
 };

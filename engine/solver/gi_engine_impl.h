@@ -48,7 +48,8 @@ struct GiEngine::Impl {
         LayerSet layers;                      ///< as shown, without `complete`
         std::vector<dmat4> placement;         ///< per surface
         std::shared_ptr<const Solution> shown;
-        LightChange owed; ///< what a stopped update left undone
+        LightChange owed;                   ///< what a stopped update left undone
+        std::vector<std::uint8_t> new_maps; ///< per surface: its layer does not show its light maps yet
     };
     std::unique_ptr<Live> live;
     CausticSettings caustic_settings;
@@ -61,23 +62,24 @@ struct GiEngine::Impl {
     [[nodiscard]] std::vector<DirectPart> direct_parts(const GatherSettings& settings) const {
         std::vector<DirectPart> parts;
         if (!punctual->lights().empty()) {
-            parts.push_back(
-                DirectPart{[&](const vec3& p, const vec3& n) { return punctual->lamps_irradiance(p, n, settings.sun_rays); },
-                           false, [this](const vec3& p, const Box3& box) { return lamp_shafts.touched(p, box); }});
+            parts.push_back(DirectPart{
+                [&](const vec3& p, const vec3& n) { return punctual->lamps_irradiance(p, n, settings.sun_rays); }, false,
+                [this](const vec3& p, float radius, const Box3& box) { return lamp_shafts.touched(p, radius, box); }});
         }
         if (!emitters.empty()) {
-            parts.push_back(DirectPart{[&](const vec3& p, const vec3& n) { return lamps->irradiance(p, n, settings); },
-                                       false,
-                                       [this](const vec3& p, const Box3& box) { return emitter_shafts.touched(p, box); }});
+            parts.push_back(DirectPart{
+                [&](const vec3& p, const vec3& n) { return lamps->irradiance(p, n, settings); }, false,
+                [this](const vec3& p, float radius, const Box3& box) { return emitter_shafts.touched(p, radius, box); }});
         }
         if (mirrors && (!punctual->lights().empty() || !emitters.empty())) {
-            parts.push_back(DirectPart{[&](const vec3& p, const vec3& n) { return over_mirrors(p, n, settings); }, false,
-                                       [this](const vec3& p, const Box3& box) { return mirror_shafts.touched(p, box); }});
+            parts.push_back(DirectPart{
+                [&](const vec3& p, const vec3& n) { return over_mirrors(p, n, settings); }, false,
+                [this](const vec3& p, float radius, const Box3& box) { return mirror_shafts.touched(p, radius, box); }});
         }
         if (punctual->has_sky()) {
-            parts.push_back(
-                DirectPart{[&](const vec3& p, const vec3& n) { return punctual->sky_irradiance(p, n, settings.sky_rays); },
-                           true, [this](const vec3& p, const Box3& box) { return sky_shafts.touched(p, box); }});
+            parts.push_back(DirectPart{
+                [&](const vec3& p, const vec3& n) { return punctual->sky_irradiance(p, n, settings.sky_rays); }, true,
+                [this](const vec3& p, float radius, const Box3& box) { return sky_shafts.touched(p, radius, box); }});
         }
         return parts;
     }
@@ -94,8 +96,8 @@ struct GiEngine::Impl {
         }
     }
     [[nodiscard]] bool direct_light_touched(const vec3& point, const Box3& box) const {
-        return lamp_shafts.touched(point, box) || emitter_shafts.touched(point, box) ||
-               (mirrors && mirror_shafts.touched(point, box)) || sky_shafts.touched(point, box);
+        return lamp_shafts.touched(point, 0.0F, box) || emitter_shafts.touched(point, 0.0F, box) ||
+               (mirrors && mirror_shafts.touched(point, 0.0F, box)) || sky_shafts.touched(point, 0.0F, box);
     }
     [[nodiscard]] DirectSample direct_light(const vec3& point, const vec3& normal, const GatherSettings& settings) const {
         DirectSample out = direct->irradiance(point, normal, settings);

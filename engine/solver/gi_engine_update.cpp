@@ -1,4 +1,5 @@
 // Light that follows the hand: what GiEngine does while objects move.
+#include "engine/optics/specular.h"
 #include "engine/solver/gi_engine_impl.h"
 
 #include <chrono>
@@ -95,12 +96,11 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     change.moved.resize(s.rays->surfaces().size(), 0);
     const std::vector<Box3> boxes = boxes_of(*moved);
     change.boxes.insert(change.boxes.end(), boxes.begin(), boxes.end());
-    std::vector<std::uint32_t> moved_surfaces;
     bool mirror_moved = false;
     for (const MovedSurface& m : *moved) {
         const RaySurface& surface = s.rays->surfaces()[m.surface];
         const Material& material = s.rays->material(m.surface);
-        if (max_component(material.emissive) > 0.0F || surface.pane) {
+        if (max_component(material.emitted_radiance()) > 0.0F || surface.pane) {
             return give_up("a lamp or a window moved");
         }
         const dmat4 motion = surface.to_engine * glm::inverse(live.placement[m.surface]);
@@ -115,7 +115,6 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
             }
         }
         change.moved[m.surface] = 1;
-        moved_surfaces.push_back(m.surface);
         mirror_moved = mirror_moved || is_specular(material);
     }
     if (mirror_moved && s.mirrors) {
@@ -128,10 +127,14 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     report.degraded = true;
 
     context.progress("direct", 0.1);
+    live.new_maps.resize(s.rays->surfaces().size(), 0);
     RepairReport repaired;
     repaired.complete = true;
     if (live.maps) {
         repaired = live.maps->repair(change, s.maps, context);
+    }
+    for (const std::uint32_t surface : repaired.surfaces) {
+        live.new_maps[surface] = 1;
     }
     if (!repaired.complete) {
         return fail("", "", "stopped before the light had followed", "The next update goes on");
@@ -139,6 +142,12 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     ParticleUpdate particles;
     if (s.particles) {
         context.progress("particles", 0.6);
+        std::vector<std::uint32_t> moved_surfaces;
+        for (std::uint32_t i = 0; i < change.moved.size(); ++i) {
+            if (change.moved[i] != 0) {
+                moved_surfaces.push_back(i);
+            }
+        }
         s.targets->follow(*s.rays, moved_surfaces);
         const ParticleScene particle_scene{*s.rays, *s.targets, *s.punctual, s.emitters,
                                            [&s](const Hit& hit) { return s.mirrors && s.mirrors->carries(hit); }};
@@ -158,11 +167,11 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     }
 
     context.progress("layers", 0.8);
-    std::vector<std::uint8_t> new_map(s.rays->surfaces().size(), 0);
-    for (const std::uint32_t surface : repaired.surfaces) {
-        new_map[surface] = 1;
-    }
-    std::vector<std::uint8_t> told(live.layers.surfaces.size(), 0);
+    GatherSettings hurried = s.field.direct; // vertices interpolate: a few rays do
+    hurried.rays = std::min(hurried.rays, 16U);
+    hurried.sun_rays = std::min(hurried.sun_rays, 8U);
+    hurried.sky_rays = std::min(hurried.sky_rays, 24U);
+
     for (std::size_t i = 0; i < live.layers.surfaces.size(); ++i) {
         const VertexPlaces& places = live.layers.places[i];
         const auto look_again = [&](const std::vector<SurfacePoint>& points, const std::vector<Rgb>& before) {
@@ -176,7 +185,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
                         (change.moved[places.surface] != 0 ||
                          std::any_of(change.boxes.begin(), change.boxes.end(),
                                      [&](const Box3& box) { return s.direct_light_touched(p.position, box); }))) {
-                        light[k] = s.direct_light(p.position, p.normal, s.field.direct).irradiance;
+                        light[k] = s.direct_light(p.position, p.normal, hurried).irradiance;
                         any.store(true, std::memory_order_relaxed);
                     }
                 }
@@ -187,7 +196,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         const SurfaceLayer& old = *live.layers.surfaces[i];
         auto front = look_again(places.front, old.direct_front);
         auto back = look_again(places.back, old.direct_back);
-        if (!front && !back && new_map[places.surface] == 0) {
+        if (!front && !back && live.new_maps[places.surface] == 0) {
             continue;
         }
         auto layer = std::make_shared<SurfaceLayer>(old);
@@ -210,6 +219,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics);
     }
     change = {};
+    live.new_maps.clear();
     solution->revision = options.revision;
     solution->final = false;
     solution->surfaces = live.layers.surfaces;

@@ -20,6 +20,7 @@ struct Solution {
     std::vector<std::shared_ptr<const SurfaceLayer>> surfaces;
     std::vector<CausticRecord> caustic_records; ///< what was decided about surfaces that caustic light falls on
     Statistics statistics;
+    bool updatable = false;   ///< the engine keeps what GiEngine::update() starts from; not kept in project files
     double mean_radiance = 0; ///< log-average of shown diffuse radiance, cd/m2: what automatic exposure starts from
 };
 

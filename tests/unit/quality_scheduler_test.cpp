@@ -17,7 +17,7 @@ struct Scheduler : testing::Test {
 
     [[nodiscard]] QualityScheduler::Time now() const { return QualityScheduler::Time(std::chrono::milliseconds(now_ms)); }
     /// "start", "stop" or "-": what is to be done at this moment.
-    [[nodiscard]] std::string wants() const { return s.should_start() ? "start" : s.should_stop(now()) ? "stop" : "-"; }
+    [[nodiscard]] std::string wants() const { return s.should_start(now()) ? "start" : s.should_stop(now()) ? "stop" : "-"; }
     std::string edit(bool in_gesture = false) {
         s.on_edit(now(), true, in_gesture);
         return wants();
