@@ -1,4 +1,4 @@
-// Rays against the scene's triangles. Embree is included by ray_scene.cpp and nowhere else.
+// Rays against the scene's triangles. Embree is used by ray_scene.cpp (embree_triangles.h) and nowhere else.
 #pragma once
 
 #include "engine/base/units.h"
