@@ -46,6 +46,8 @@ void EmbreeTriangles::release_scenes() {
         }
     }
     moved_surfaces_.clear();
+    moved_reach_ = {};
+    moved_filter_reach_ = {};
 }
 
 RTCScene EmbreeTriangles::new_scene() const {
@@ -88,7 +90,7 @@ void EmbreeTriangles::build(std::span<const RaySurface> surfaces, const std::vec
 }
 
 void EmbreeTriangles::move(std::span<const std::uint32_t> moved, std::span<const RaySurface> surfaces,
-                           const std::vector<std::uint8_t>& filters) {
+                           const std::vector<std::uint8_t>& filters, std::span<const Box3> bounds) {
     std::size_t at_rest = 0;
     for (const std::uint32_t surface : moved_surfaces_) {
         at_rest += surfaces[surface].triangles.size();
@@ -130,35 +132,28 @@ void EmbreeTriangles::move(std::span<const std::uint32_t> moved, std::span<const
         rtcCommitGeometry(geometry);
     }
     rtcCommitScene(moved_);
-    update_reach(surfaces, filters);
+    Box3 all;
+    Box3 filtering;
+    for (const std::uint32_t i : moved_surfaces_) {
+        all.add(bounds[i]);
+        if (filters[i] != 0) {
+            filtering.add(bounds[i]);
+        }
+    }
+    moved_reach_ = reach_of(all);
+    moved_filter_reach_ = reach_of(filtering);
 }
 
-void EmbreeTriangles::update_reach(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters) {
-    moved_reach_ = {};
-    moved_filter_reach_ = {};
-    for (const std::uint32_t i : moved_surfaces_) {
-        Box3 box;
-        for (const uvec3& t : surfaces[i].triangles) {
-            for (int k = 0; k < 3; ++k) {
-                box.add((*surfaces[i].positions)[t[k]]);
-            }
-        }
-        const float slack =
-            kBoxSlack * (1.0F + std::max(max_component(glm::abs(box.min)), max_component(glm::abs(box.max))));
-        box.min -= slack;
-        box.max += slack;
-        moved_reach_.box.add(box);
-        if (filters[i] != 0) {
-            moved_filter_reach_.box.add(box);
-        }
+EmbreeTriangles::Reach EmbreeTriangles::reach_of(const Box3& bounds) {
+    if (bounds.empty()) {
+        return {};
     }
-    for (Reach* reach : {&moved_reach_, &moved_filter_reach_}) {
-        if (!reach->box.empty()) {
-            const float radius = 0.5001F * reach->box.diagonal();
-            reach->centre = reach->box.centre();
-            reach->radius2 = radius * radius;
-        }
-    }
+    Box3 box = bounds;
+    const float slack = kBoxSlack * (1.0F + std::max(max_component(glm::abs(box.min)), max_component(glm::abs(box.max))));
+    box.min -= slack;
+    box.max += slack;
+    const float radius = 0.5001F * box.diagonal();
+    return {box, box.centre(), radius * radius};
 }
 
 unsigned EmbreeTriangles::blocked_of_8(const vec3& from, std::span<const vec3> directions, float tnear) const {
@@ -184,7 +179,7 @@ unsigned EmbreeTriangles::blocked_of_8(const vec3& from, std::span<const vec3> d
         rays.flags[k] = 0;
     }
     rtcOccluded8(valid, still_, &context, &rays);
-    if (moved_ != nullptr) {
+    if (!moved_reach_.empty()) {
         bool any = false;
         for (std::size_t k = 0; k < directions.size(); ++k) {
             const bool meets_moved = rays.tfar[k] >= 0.0F && meets(moved_reach_, {from, directions[k], tnear, rays.tfar[k]});

@@ -40,9 +40,11 @@ public:
 
     /// One value of `filters` for each surface.
     void build(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters);
-    /// Some surfaces have other positions (the same number of them) or filter otherwise; no query may run.
+    /// Some surfaces have other positions (the same number of them) or filter otherwise; no query may run. `bounds` are
+    /// those of all surfaces.
     void move(std::span<const std::uint32_t> moved, std::span<const RaySurface> surfaces,
-              const std::vector<std::uint8_t>& filters);
+              const std::vector<std::uint8_t>& filters, std::span<const Box3> bounds);
+    [[nodiscard]] bool anything_moved() const { return moved_ != nullptr; } ///< since build()
 
     [[nodiscard]] TriangleHit nearest(const RayPiece& ray) const {
         return nearest(still_, ray, kOpaque | kFilter, moved_reach_);
@@ -52,7 +54,7 @@ public:
     }
     /// Anything opaque on the ray?
     [[nodiscard]] bool blocked(const RayPiece& ray) const {
-        return blocked(still_, ray) || (moved_ != nullptr && meets(moved_reach_, ray) && blocked(moved_, ray));
+        return blocked(still_, ray) || (!moved_reach_.empty() && meets(moved_reach_, ray) && blocked(moved_, ray));
     }
     /// Bit k is set where direction k (of at most 8) meets something opaque.
     [[nodiscard]] unsigned blocked_of_8(const vec3& from, std::span<const vec3> directions, float tnear) const;
@@ -63,11 +65,12 @@ private:
     static constexpr unsigned kOpaque = 1; // stops light
     static constexpr unsigned kFilter = 2; // clear panes, cut-outs, blended surfaces: some light goes through
 
-    // A box and a sphere around the same things, both with slack; the default has nothing in it.
+    // A box and a sphere around the same things, both with slack.
     struct Reach {
         Box3 box;
         vec3 centre{0.0F};
         float radius2 = -1.0F;
+        [[nodiscard]] bool empty() const { return radius2 < 0.0F; }
     };
 
     static void fill(RTCRay& out, const RayPiece& ray, unsigned mask) {
@@ -110,7 +113,7 @@ private:
 
     [[nodiscard]] TriangleHit nearest(RTCScene still, const RayPiece& ray, unsigned mask, const Reach& reach) const {
         TriangleHit out = nearest_in(still, ray, mask);
-        if (moved_ != nullptr) {
+        if (!reach.empty()) {
             RayPiece rest = ray;
             rest.tfar = out.surface != Hit::kNone ? out.t : ray.tfar;
             if (meets(reach, rest)) {
@@ -128,9 +131,6 @@ private:
     static bool meets(const Reach& reach, const RayPiece& ray) {
         constexpr float kLeast = 1e-18F; // of a direction's components: keeps quotients finite
         constexpr float kSlack = 1e-6F;  // of distances: more than they are rounded by
-        if (reach.radius2 < 0.0F) {
-            return false;
-        }
         const vec3 there = reach.centre - ray.origin;
         const float along = glm::dot(there, ray.direction);
         const float distance2 = glm::dot(there, there);
@@ -155,7 +155,7 @@ private:
     void release_scenes();
     [[nodiscard]] RTCGeometry make(const RaySurface& surface, bool filters) const;
     [[nodiscard]] RTCScene new_scene() const;
-    void update_reach(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters);
+    static Reach reach_of(const Box3& bounds);
 
     RTCDevice device_ = nullptr;
     RTCScene still_ = nullptr;
@@ -164,7 +164,7 @@ private:
     std::vector<std::uint32_t> moved_surfaces_;  // by their number in `moved_`
     std::vector<std::uint32_t> number_in_moved_; // by surface; Hit::kNone = it stands still
     Reach moved_reach_;
-    Reach moved_filter_reach_;
+    Reach moved_filter_reach_; // of what filters among it
     std::size_t triangles_ = 0;
     std::atomic<std::size_t> bytes_{0};
 };

@@ -403,7 +403,7 @@ struct RayScene::Impl {
             filters[m.surface] = filters_light(*materials[m.surface], surfaces[m.surface]) ? 1 : 0;
         }
         any_filter = std::find(filters.begin(), filters.end(), 1) != filters.end();
-        embree.move(moved, surfaces, filters);
+        embree.move(moved, surfaces, filters, surface_bounds);
         return out;
     }
 
@@ -525,6 +525,11 @@ RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
 RayScene::~RayScene() = default;
 
 std::optional<std::vector<MovedSurface>> RayScene::move_to(const Scene& scene) { return impl_->move_to(scene); }
+void RayScene::settle() {
+    if (impl_->embree.anything_moved()) {
+        impl_->embree.build(impl_->surfaces, impl_->filters);
+    }
+}
 
 const std::vector<RaySurface>& RayScene::surfaces() const { return impl_->surfaces; }
 dvec3 RayScene::origin() const { return impl_->origin; }

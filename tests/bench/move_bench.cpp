@@ -204,9 +204,13 @@ void print_rates_after_moves(const std::string& name, const Scene& original, con
                 timed_move(moved, scene);
             }
         }
+        RayScene settled(original);
+        timed_move(settled, scene);
+        settled.settle();
         const RayScene fresh(scene);
-        print_rates(name, {{fmt::format("{} objects elsewhere, built anew", count), &fresh},
-                           {fmt::format("{} objects, moved there", count), &moved}});
+        print_rates(name, {{fmt::format("{} elsewhere, built anew", count), &fresh},
+                           {fmt::format("{} moved there", count), &moved},
+                           {fmt::format("{} moved there, settled", count), &settled}});
     }
 }
 
