@@ -156,6 +156,63 @@ EmbreeTriangles::Reach EmbreeTriangles::reach_of(const Box3& bounds) {
     return {box, box.centre(), radius * radius};
 }
 
+// Errs on the side of true. Directions may have any length.
+bool EmbreeTriangles::meets(const Reach& reach, const vec3& origin, const vec3& direction, float tnear, float tfar) {
+    constexpr float kLeast = 1e-18F; // of a direction's components: keeps quotients finite
+    constexpr float kSlack = 1e-6F;  // of distances: more than they are rounded by
+    if (reach.empty()) {
+        return false;
+    }
+    const vec3 there = reach.centre - origin;
+    const float along = glm::dot(there, direction);
+    const float distance2 = glm::dot(there, there);
+    const float length2 = glm::dot(direction, direction);
+    if (distance2 > reach.radius2 &&
+        (along < 0.0F || distance2 * length2 * (1.0F - 4.0F * kSlack) - along * along > reach.radius2 * length2)) {
+        return false; // most rays end here, without a division
+    }
+    float first = tnear;
+    float last = tfar;
+    for (int k = 0; k < 3; ++k) {
+        const float d = direction[k];
+        const float inverse = 1.0F / (std::abs(d) < kLeast ? std::copysign(kLeast, d) : d);
+        const float a = (reach.box.min[k] - origin[k]) * inverse;
+        const float b = (reach.box.max[k] - origin[k]) * inverse;
+        first = std::max(first, std::min(a, b));
+        last = std::min(last, std::max(a, b));
+    }
+    return first - std::abs(first) * kSlack <= last + std::abs(last) * kSlack;
+}
+
+void EmbreeTriangles::take_nearer_of_moved(RTCRayHit& query) const {
+    const RTCRay& ray = query.ray;
+    const Reach& reach = ray.mask == kFilter ? moved_filter_reach_ : moved_reach_;
+    if (!meets(reach, {ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}, ray.tnear, ray.tfar)) {
+        return;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit nearer = query;
+    nearer.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    nearer.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(moved_, &context, &nearer);
+    if (nearer.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
+        query = nearer;
+        query.hit.geomID = moved_surfaces_[nearer.hit.geomID];
+    }
+}
+
+bool EmbreeTriangles::blocked_by_moved(RTCRay& query) const {
+    if (!meets(moved_reach_, {query.org_x, query.org_y, query.org_z}, {query.dir_x, query.dir_y, query.dir_z}, query.tnear,
+               query.tfar)) {
+        return false;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(moved_, &context, &query);
+    return query.tfar < 0.0F;
+}
+
 unsigned EmbreeTriangles::blocked_of_8(const vec3& from, std::span<const vec3> directions, float tnear) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -179,10 +236,10 @@ unsigned EmbreeTriangles::blocked_of_8(const vec3& from, std::span<const vec3> d
         rays.flags[k] = 0;
     }
     rtcOccluded8(valid, still_, &context, &rays);
-    if (!moved_reach_.empty()) {
+    if (moved_ != nullptr) {
         bool any = false;
         for (std::size_t k = 0; k < directions.size(); ++k) {
-            const bool meets_moved = rays.tfar[k] >= 0.0F && meets(moved_reach_, {from, directions[k], tnear, rays.tfar[k]});
+            const bool meets_moved = rays.tfar[k] >= 0.0F && meets(moved_reach_, from, directions[k], tnear, rays.tfar[k]);
             valid[k] = meets_moved ? -1 : 0;
             any = any || meets_moved;
         }

@@ -13,20 +13,14 @@
 
 namespace atrium {
 
+static_assert(RTC_INVALID_GEOMETRY_ID == Hit::kNone);
+
 /// Nearest triangle on a ray.
 struct TriangleHit {
-    std::uint32_t surface = Hit::kNone;
+    std::uint32_t surface = Hit::kNone; ///< none: the rest means nothing
     std::uint32_t triangle = 0;
     float t = 0.0F;
     vec2 barycentric{0.0F};
-};
-
-/// A ray between two distances.
-struct RayPiece {
-    vec3 origin{0.0F};
-    vec3 direction{0.0F};
-    float tnear = 0.0F;
-    float tfar = 0.0F;
 };
 
 /// Surfaces are known by their index. Each is opaque or filters light (lets some of it through); queries are safe from any
@@ -46,15 +40,32 @@ public:
               const std::vector<std::uint8_t>& filters, std::span<const Box3> bounds);
     [[nodiscard]] bool anything_moved() const { return moved_ != nullptr; } ///< since build()
 
-    [[nodiscard]] TriangleHit nearest(const RayPiece& ray) const {
-        return nearest(still_, ray, kOpaque | kFilter, moved_reach_);
-    }
-    [[nodiscard]] TriangleHit nearest_filter(const RayPiece& ray) const {
-        return nearest(still_filters_, ray, kFilter, moved_filter_reach_);
+    /// Among all surfaces or among those that filter light. Call it in one place, where it is compiled in.
+    [[nodiscard]] TriangleHit nearest(bool only_filters, const vec3& from, const vec3& direction, float tnear,
+                                      float tfar) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRayHit query;
+        fill(query.ray, from, direction, tnear, tfar, only_filters ? kFilter : kOpaque | kFilter);
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(only_filters ? still_filters_ : still_, &context, &query);
+        if (moved_ != nullptr) {
+            take_nearer_of_moved(query);
+        }
+        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+            return {};
+        }
+        return {query.hit.geomID, query.hit.primID, query.ray.tfar, {query.hit.u, query.hit.v}};
     }
     /// Anything opaque on the ray?
-    [[nodiscard]] bool blocked(const RayPiece& ray) const {
-        return blocked(still_, ray) || (!moved_reach_.empty() && meets(moved_reach_, ray) && blocked(moved_, ray));
+    [[nodiscard]] bool blocked(const vec3& from, const vec3& direction, float tnear, float tfar) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRay query;
+        fill(query, from, direction, tnear, tfar, kOpaque);
+        rtcOccluded1(still_, &context, &query);
+        return query.tfar < 0.0F || (moved_ != nullptr && blocked_by_moved(query));
     }
     /// Bit k is set where direction k (of at most 8) meets something opaque.
     [[nodiscard]] unsigned blocked_of_8(const vec3& from, std::span<const vec3> directions, float tnear) const;
@@ -73,89 +84,30 @@ private:
         [[nodiscard]] bool empty() const { return radius2 < 0.0F; }
     };
 
-    static void fill(RTCRay& out, const RayPiece& ray, unsigned mask) {
-        out.org_x = ray.origin.x;
-        out.org_y = ray.origin.y;
-        out.org_z = ray.origin.z;
-        out.dir_x = ray.direction.x;
-        out.dir_y = ray.direction.y;
-        out.dir_z = ray.direction.z;
-        out.tnear = ray.tnear;
-        out.tfar = ray.tfar;
-        out.mask = mask;
-        out.time = 0.0F;
-        out.id = 0;
-        out.flags = 0;
+    static void fill(RTCRay& ray, const vec3& from, const vec3& direction, float tnear, float tfar, unsigned mask) {
+        ray.org_x = from.x;
+        ray.org_y = from.y;
+        ray.org_z = from.z;
+        ray.dir_x = direction.x;
+        ray.dir_y = direction.y;
+        ray.dir_z = direction.z;
+        ray.tnear = tnear;
+        ray.tfar = tfar;
+        ray.mask = mask;
+        ray.time = 0.0F;
+        ray.id = 0;
+        ray.flags = 0;
     }
 
-    static bool blocked(RTCScene where, const RayPiece& ray) {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        RTCRay query;
-        fill(query, ray, kOpaque);
-        rtcOccluded1(where, &context, &query);
-        return query.tfar < 0.0F;
-    }
+    // What was moved, after the rest was asked: apart, to stay out of the way where nothing ever was.
+    void take_nearer_of_moved(RTCRayHit& query) const;
+    [[nodiscard]] bool blocked_by_moved(RTCRay& query) const;
 
-    static TriangleHit nearest_in(RTCScene where, const RayPiece& ray, unsigned mask) {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        RTCRayHit query;
-        fill(query.ray, ray, mask);
-        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(where, &context, &query);
-        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-            return {};
-        }
-        return {query.hit.geomID, query.hit.primID, query.ray.tfar, {query.hit.u, query.hit.v}};
-    }
-
-    [[nodiscard]] TriangleHit nearest(RTCScene still, const RayPiece& ray, unsigned mask, const Reach& reach) const {
-        TriangleHit out = nearest_in(still, ray, mask);
-        if (!reach.empty()) {
-            RayPiece rest = ray;
-            rest.tfar = out.surface != Hit::kNone ? out.t : ray.tfar;
-            if (meets(reach, rest)) {
-                const TriangleHit nearer = nearest_in(moved_, rest, mask);
-                if (nearer.surface != Hit::kNone) {
-                    out = nearer;
-                    out.surface = moved_surfaces_[nearer.surface];
-                }
-            }
-        }
-        return out;
-    }
-
-    /// Errs on the side of true. Directions of any length.
-    static bool meets(const Reach& reach, const RayPiece& ray) {
-        constexpr float kLeast = 1e-18F; // of a direction's components: keeps quotients finite
-        constexpr float kSlack = 1e-6F;  // of distances: more than they are rounded by
-        const vec3 there = reach.centre - ray.origin;
-        const float along = glm::dot(there, ray.direction);
-        const float distance2 = glm::dot(there, there);
-        const float length2 = glm::dot(ray.direction, ray.direction);
-        if (distance2 > reach.radius2 &&
-            (along < 0.0F || distance2 * length2 * (1.0F - 4.0F * kSlack) - along * along > reach.radius2 * length2)) {
-            return false; // most rays end here, without a division
-        }
-        float first = ray.tnear;
-        float last = ray.tfar;
-        for (int k = 0; k < 3; ++k) {
-            const float d = ray.direction[k];
-            const float inverse = 1.0F / (std::abs(d) < kLeast ? std::copysign(kLeast, d) : d);
-            const float a = (reach.box.min[k] - ray.origin[k]) * inverse;
-            const float b = (reach.box.max[k] - ray.origin[k]) * inverse;
-            first = std::max(first, std::min(a, b));
-            last = std::min(last, std::max(a, b));
-        }
-        return first - std::abs(first) * kSlack <= last + std::abs(last) * kSlack;
-    }
-
+    static bool meets(const Reach& reach, const vec3& origin, const vec3& direction, float tnear, float tfar);
+    static Reach reach_of(const Box3& bounds);
     void release_scenes();
     [[nodiscard]] RTCGeometry make(const RaySurface& surface, bool filters) const;
     [[nodiscard]] RTCScene new_scene() const;
-    static Reach reach_of(const Box3& bounds);
 
     RTCDevice device_ = nullptr;
     RTCScene still_ = nullptr;

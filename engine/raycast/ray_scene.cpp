@@ -421,22 +421,14 @@ struct RayScene::Impl {
         return area >= kLeastArea;
     }
 
-    bool blocked(const RayPiece& ray) {
+    bool blocked(const vec3& from, const vec3& direction, float tnear, float tfar) {
         count_ray();
-        return embree.blocked(ray);
+        return embree.blocked(from, direction, tnear, tfar);
     }
 
-    Hit hit(const RayPiece& ray) {
+    Hit hit(bool only_filters, const vec3& from, const vec3& direction, float tnear, float tfar) {
         count_ray();
-        return complete(embree.nearest(ray), ray.direction);
-    }
-
-    Hit filter_hit(const RayPiece& ray) {
-        count_ray();
-        return complete(embree.nearest_filter(ray), ray.direction);
-    }
-
-    [[nodiscard]] Hit complete(const TriangleHit& met, const vec3& direction) const {
+        const TriangleHit met = embree.nearest(only_filters, from, direction, tnear, tfar);
         Hit out;
         if (met.surface == Hit::kNone) {
             return out;
@@ -470,26 +462,29 @@ struct RayScene::Impl {
         return through;
     }
 
-    Rgb transmit(const RayScene& self, const RayPiece& ray) {
-        return blocked(ray) ? Rgb(0.0F) : cross_filters(self, ray).through;
+    Rgb transmit(const RayScene& self, const vec3& from, const vec3& direction, float tnear, float tfar) {
+        if (blocked(from, direction, tnear, tfar)) {
+            return Rgb(0.0F);
+        }
+        return cross_filters(self, from, direction, tnear, tfar).through;
     }
 
     // What filtering surfaces leave of the light on a way that nothing opaque blocks.
-    SkyRay cross_filters(const RayScene& self, RayPiece ray) {
+    SkyRay cross_filters(const RayScene& self, const vec3& from, const vec3& direction, float tnear, float tfar) {
         SkyRay out{Rgb(1.0F)};
         for (int crossing = 0; any_filter && crossing < kMaxCrossings; ++crossing) {
-            const Hit h = filter_hit(ray);
+            const Hit h = hit(true, from, direction, tnear, tfar);
             if (!h) {
                 return out;
             }
             if (surfaces[h.surface].pane) {
                 out.first_pane = std::min(out.first_pane, h.t);
             }
-            out.through *= filter(self, h, ray.direction);
+            out.through *= filter(self, h, direction);
             if (max_component(out.through) <= 1e-4F) {
                 return {};
             }
-            ray.tnear = h.t + std::max(1e-5F, 1e-6F * h.t);
+            tnear = h.t + std::max(1e-5F, 1e-6F * h.t);
         }
         return any_filter ? SkyRay{} : out;
     }
@@ -548,9 +543,9 @@ std::uint64_t RayScene::rays_traced() const {
 }
 
 Hit RayScene::nearest(const Ray& ray) const {
-    RayPiece piece{ray.origin, ray.direction, 0.0F, ray.tmax};
+    float tnear = 0.0F;
     for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
-        const Hit h = impl_->hit(piece);
+        const Hit h = impl_->hit(false, ray.origin, ray.direction, tnear, ray.tmax);
         if (!h) {
             return h;
         }
@@ -558,7 +553,7 @@ Hit RayScene::nearest(const Ray& ray) const {
         if (m.alpha_mode != Material::Alpha::Mask || base_color(h.surface, h.triangle, h.barycentric).a >= m.alpha_cutoff) {
             return h;
         }
-        piece.tnear = h.t + std::max(1e-5F, 1e-6F * h.t);
+        tnear = h.t + std::max(1e-5F, 1e-6F * h.t);
     }
     return {};
 }
@@ -572,12 +567,12 @@ Rgb RayScene::transmittance(const vec3& from, const vec3& to) const {
         return Rgb(1.0F);
     }
     const float most = 0.1F * length;
-    return impl_->transmit(
-        *this, {from, d / length, std::min(shadow_offset(from), most), length - std::min(shadow_offset(to), most)});
+    return impl_->transmit(*this, from, d / length, std::min(shadow_offset(from), most),
+                           length - std::min(shadow_offset(to), most));
 }
 
 Rgb RayScene::transmittance_to_infinity(const vec3& from, const vec3& direction) const {
-    return impl_->transmit(*this, {from, direction, shadow_offset(from), std::numeric_limits<float>::infinity()});
+    return impl_->transmit(*this, from, direction, shadow_offset(from), std::numeric_limits<float>::infinity());
 }
 
 void RayScene::look_at_sky(const vec3& from, std::span<const vec3> directions, std::span<SkyRay> out) const {
@@ -588,16 +583,15 @@ void RayScene::look_at_sky(const vec3& from, std::span<const vec3> directions, s
         impl_->count_rays(some.size());
         const unsigned blocked = impl_->embree.blocked_of_8(from, some, tnear);
         for (std::size_t k = 0; k < some.size(); ++k) {
-            out[first + k] =
-                (blocked >> k & 1U) != 0
-                    ? SkyRay{}
-                    : impl_->cross_filters(*this, {from, some[k], tnear, std::numeric_limits<float>::infinity()});
+            out[first + k] = (blocked >> k & 1U) != 0
+                                 ? SkyRay{}
+                                 : impl_->cross_filters(*this, from, some[k], tnear, std::numeric_limits<float>::infinity());
         }
     }
 }
 
 Rgb RayScene::transmittance(const Ray& ray) const {
-    return impl_->transmit(*this, {ray.origin, ray.direction, 0.0F, ray.tmax});
+    return impl_->transmit(*this, ray.origin, ray.direction, 0.0F, ray.tmax);
 }
 
 Rgb RayScene::straight_through(const Hit& hit, const vec3& direction) const {
