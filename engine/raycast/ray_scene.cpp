@@ -5,22 +5,20 @@
 #include "engine/geometry/surface_charts.h"
 #include "engine/geometry/tessellate.h"
 #include "engine/optics/specular.h"
+#include "engine/raycast/embree_triangles.h"
 #include "engine/raycast/slabs.h"
 #include "engine/scene/texture_sampling.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <embree3/rtcore.h>
 #include <map>
 #include <thread>
 
 namespace atrium {
 namespace {
 
-constexpr unsigned kOpaqueMask = 1; // stops light
-constexpr unsigned kFilterMask = 2; // clear panes, cut-outs, blended surfaces: some light goes through
-constexpr int kMaxCrossings = 64;   // panes and leaves in a row; beyond it the light is taken as absorbed
+constexpr int kMaxCrossings = 64; // panes and leaves in a row; beyond it the light is taken as absorbed
 
 bool lets_light_through(const Material& m) { return m.transmission > 0.0F || m.alpha_mode != Material::Alpha::Opaque; }
 
@@ -49,8 +47,6 @@ Rgb glass_transmittance(const Material& m, const RaySurface& s, const Rgb& tint,
 struct alignas(64) Counter {
     std::atomic<std::uint64_t> value{0};
 };
-
-void on_embree_error(void*, RTCError, const char* message) { std::fprintf(stderr, "embree: %s\n", message); }
 
 } // namespace
 
@@ -86,19 +82,17 @@ struct RayScene::Impl {
     Scene scene;
     std::vector<RaySurface> surfaces;
     std::vector<const Material*> materials; // per surface, into `scene`
+    std::vector<std::uint8_t> filters;      // per surface: some light goes straight on through it
     std::vector<Box3> surface_bounds;
     std::vector<Placed> placed; // in tree order
     std::vector<Inside> insides;
     std::vector<Counter> counters = std::vector<Counter>(16);
-    RTCDevice device = nullptr;
-    RTCScene embree = nullptr;
-    RTCScene filters = nullptr; // what lets light through, by itself: most rays meet none of it
+    EmbreeTriangles embree;
     dvec3 origin{0.0};
     double extent = 0.0; // diagonal of the world bounds
     Box3 bounds;
     std::size_t triangles = 0;
     std::size_t dropped = 0;
-    std::atomic<std::size_t> bytes{0};
     bool any_filter = false;
 
     void count_ray() { count_rays(1); }
@@ -129,7 +123,7 @@ struct RayScene::Impl {
             }
             add_node(id, node, *shape, mesh, closed);
         }
-        any_filter = any_surface_filters();
+        any_filter = std::find(filters.begin(), filters.end(), 1) != filters.end();
     }
 
     // Lenses and curved mirrors need their shape closer than what is matt: light that they focus shows every facet.
@@ -181,6 +175,7 @@ struct RayScene::Impl {
             find_glass(surface, *material);
             triangles += surface.triangles.size();
             materials.push_back(material);
+            filters.push_back(filters_light(*material, surface) ? 1 : 0);
             surface_bounds.push_back(box);
             surfaces.push_back(std::move(surface));
             ++place.surfaces;
@@ -237,15 +232,6 @@ struct RayScene::Impl {
         }
         surface.slab = surface.slab_thickness > 0.0F;
         surface.pane = is_pane(surface, material);
-    }
-
-    [[nodiscard]] bool any_surface_filters() const {
-        for (std::size_t i = 0; i < surfaces.size(); ++i) {
-            if (filters_light(*materials[i], surfaces[i])) {
-                return true;
-            }
-        }
-        return false;
     }
 
     // Walks the tree of `now` beside what was built. Nothing when more than placements differ.
@@ -411,9 +397,13 @@ struct RayScene::Impl {
         for (const Box3& box : surface_bounds) {
             bounds.add(box);
         }
-        any_filter = any_surface_filters();
-        release();
-        build();
+        std::vector<std::uint32_t> moved;
+        for (const MovedSurface& m : out) {
+            moved.push_back(m.surface);
+            filters[m.surface] = filters_light(*materials[m.surface], surfaces[m.surface]) ? 1 : 0;
+        }
+        any_filter = std::find(filters.begin(), filters.end(), 1) != filters.end();
+        embree.move(moved, surfaces, filters, surface_bounds);
         return out;
     }
 
@@ -431,105 +421,22 @@ struct RayScene::Impl {
         return area >= kLeastArea;
     }
 
-    void open_device() {
-        device = rtcNewDevice(nullptr);
-        ATRIUM_CHECK(device != nullptr);
-        rtcSetDeviceErrorFunction(device, on_embree_error, nullptr);
-        rtcSetDeviceMemoryMonitorFunction(
-            device,
-            [](void* self, ssize_t change, bool) {
-                static_cast<Impl*>(self)->bytes += std::size_t(change);
-                return true;
-            },
-            this);
-    }
-
-    void build() {
-        embree = rtcNewScene(device);
-        filters = rtcNewScene(device);
-        for (RTCScene scene_part : {embree, filters}) {
-            rtcSetSceneFlags(scene_part, RTC_SCENE_FLAG_ROBUST);
-            rtcSetSceneBuildQuality(scene_part, RTC_BUILD_QUALITY_MEDIUM);
-        }
-        for (std::size_t i = 0; i < surfaces.size(); ++i) {
-            const RaySurface& s = surfaces[i];
-            RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-            auto* vertices = static_cast<vec3*>(rtcSetNewGeometryBuffer(
-                geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), s.positions->size()));
-            std::copy(s.positions->begin(), s.positions->end(), vertices);
-            auto* indices = static_cast<uvec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                        sizeof(uvec3), s.triangles.size()));
-            std::copy(s.triangles.begin(), s.triangles.end(), indices);
-            const bool filtering = filters_light(*materials[i], s);
-            rtcSetGeometryMask(geometry, filtering ? kFilterMask : kOpaqueMask);
-            rtcCommitGeometry(geometry);
-            rtcAttachGeometryByID(embree, geometry, unsigned(i));
-            if (filtering) {
-                rtcAttachGeometryByID(filters, geometry, unsigned(i));
-            }
-            rtcReleaseGeometry(geometry);
-        }
-        rtcCommitScene(embree);
-        rtcCommitScene(filters);
-    }
-
-    void release() {
-        if (embree != nullptr) {
-            rtcReleaseScene(embree);
-            rtcReleaseScene(filters);
-        }
-    }
-
-    ~Impl() {
-        release();
-        if (device != nullptr) {
-            rtcSetDeviceMemoryMonitorFunction(device, nullptr, nullptr);
-            rtcReleaseDevice(device);
-        }
-    }
-
-    static void fill(RTCRay& ray, const vec3& from, const vec3& direction, float tnear, float tfar, unsigned mask) {
-        ray.org_x = from.x;
-        ray.org_y = from.y;
-        ray.org_z = from.z;
-        ray.dir_x = direction.x;
-        ray.dir_y = direction.y;
-        ray.dir_z = direction.z;
-        ray.tnear = tnear;
-        ray.tfar = tfar;
-        ray.mask = mask;
-        ray.time = 0.0F;
-        ray.id = 0;
-        ray.flags = 0;
-    }
-
-    bool blocked(const vec3& from, const vec3& direction, float tnear, float tfar, unsigned mask) {
+    bool blocked(const vec3& from, const vec3& direction, float tnear, float tfar) {
         count_ray();
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        RTCRay ray;
-        fill(ray, from, direction, tnear, tfar, mask);
-        rtcOccluded1(embree, &context, &ray);
-        return ray.tfar < 0.0F;
+        return embree.blocked(from, direction, tnear, tfar);
     }
 
-    Hit hit(RTCScene where, const vec3& from, const vec3& direction, float tnear, float tfar) {
+    Hit hit(bool only_filters, const vec3& from, const vec3& direction, float tnear, float tfar) {
         count_ray();
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        RTCRayHit query;
-        fill(query.ray, from, direction, tnear, tfar, kOpaqueMask | kFilterMask);
-        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(where, &context, &query);
+        const TriangleHit met = embree.nearest(only_filters, from, direction, tnear, tfar);
         Hit out;
-        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        if (met.surface == Hit::kNone) {
             return out;
         }
-        out.surface = query.hit.geomID;
-        out.triangle = query.hit.primID;
-        out.t = query.ray.tfar;
-        out.barycentric = {query.hit.u, query.hit.v};
+        out.surface = met.surface;
+        out.triangle = met.triangle;
+        out.t = met.t;
+        out.barycentric = met.barycentric;
         const uvec3& t = surfaces[out.surface].triangles[out.triangle];
         const std::vector<vec3>& p = *surfaces[out.surface].positions;
         out.geometric_normal = glm::normalize(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]));
@@ -556,7 +463,7 @@ struct RayScene::Impl {
     }
 
     Rgb transmit(const RayScene& self, const vec3& from, const vec3& direction, float tnear, float tfar) {
-        if (blocked(from, direction, tnear, tfar, kOpaqueMask)) {
+        if (blocked(from, direction, tnear, tfar)) {
             return Rgb(0.0F);
         }
         return cross_filters(self, from, direction, tnear, tfar).through;
@@ -566,7 +473,7 @@ struct RayScene::Impl {
     SkyRay cross_filters(const RayScene& self, const vec3& from, const vec3& direction, float tnear, float tfar) {
         SkyRay out{Rgb(1.0F)};
         for (int crossing = 0; any_filter && crossing < kMaxCrossings; ++crossing) {
-            const Hit h = hit(filters, from, direction, tnear, tfar);
+            const Hit h = hit(true, from, direction, tnear, tfar);
             if (!h) {
                 return out;
             }
@@ -580,38 +487,6 @@ struct RayScene::Impl {
             tnear = h.t + std::max(1e-5F, 1e-6F * h.t);
         }
         return any_filter ? SkyRay{} : out;
-    }
-
-    // Bit k is set where direction k (of at most 8) meets something opaque.
-    unsigned blocked_of_8(const vec3& from, std::span<const vec3> directions, float tnear) {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        alignas(32) int valid[8];
-        RTCRay8 rays;
-        for (std::size_t k = 0; k < 8; ++k) {
-            valid[k] = k < directions.size() ? -1 : 0;
-            const vec3& d = directions[std::min(k, directions.size() - 1)];
-            rays.org_x[k] = from.x;
-            rays.org_y[k] = from.y;
-            rays.org_z[k] = from.z;
-            rays.dir_x[k] = d.x;
-            rays.dir_y[k] = d.y;
-            rays.dir_z[k] = d.z;
-            rays.tnear[k] = tnear;
-            rays.tfar[k] = std::numeric_limits<float>::infinity();
-            rays.time[k] = 0.0F;
-            rays.mask[k] = kOpaqueMask;
-            rays.id[k] = 0;
-            rays.flags[k] = 0;
-        }
-        count_rays(directions.size());
-        rtcOccluded8(valid, embree, &context, &rays);
-        unsigned out = 0;
-        for (std::size_t k = 0; k < directions.size(); ++k) {
-            out |= rays.tfar[k] < 0.0F ? 1U << k : 0U;
-        }
-        return out;
     }
 
     template <class V>
@@ -639,20 +514,24 @@ float shadow_offset(const vec3& p) {
 RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
     impl_->scene = scene;
     impl_->collect();
-    impl_->open_device();
-    impl_->build();
+    impl_->embree.build(impl_->surfaces, impl_->filters);
 }
 
 RayScene::~RayScene() = default;
 
 std::optional<std::vector<MovedSurface>> RayScene::move_to(const Scene& scene) { return impl_->move_to(scene); }
+void RayScene::settle() {
+    if (impl_->embree.anything_moved()) {
+        impl_->embree.build(impl_->surfaces, impl_->filters);
+    }
+}
 
 const std::vector<RaySurface>& RayScene::surfaces() const { return impl_->surfaces; }
 dvec3 RayScene::origin() const { return impl_->origin; }
 Box3 RayScene::bounds() const { return impl_->bounds; }
 std::size_t RayScene::triangle_count() const { return impl_->triangles; }
 std::size_t RayScene::dropped_triangles() const { return impl_->dropped; }
-std::size_t RayScene::memory_bytes() const { return impl_->bytes; }
+std::size_t RayScene::memory_bytes() const { return impl_->embree.bytes(); }
 const Material& RayScene::material(std::uint32_t surface) const { return *impl_->materials[surface]; }
 
 std::uint64_t RayScene::rays_traced() const {
@@ -666,7 +545,7 @@ std::uint64_t RayScene::rays_traced() const {
 Hit RayScene::nearest(const Ray& ray) const {
     float tnear = 0.0F;
     for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
-        const Hit h = impl_->hit(impl_->embree, ray.origin, ray.direction, tnear, ray.tmax);
+        const Hit h = impl_->hit(false, ray.origin, ray.direction, tnear, ray.tmax);
         if (!h) {
             return h;
         }
@@ -701,7 +580,8 @@ void RayScene::look_at_sky(const vec3& from, std::span<const vec3> directions, s
     const float tnear = shadow_offset(from);
     for (std::size_t first = 0; first < directions.size(); first += 8) {
         const auto some = directions.subspan(first, std::min<std::size_t>(8, directions.size() - first));
-        const unsigned blocked = impl_->blocked_of_8(from, some, tnear);
+        impl_->count_rays(some.size());
+        const unsigned blocked = impl_->embree.blocked_of_8(from, some, tnear);
         for (std::size_t k = 0; k < some.size(); ++k) {
             out[first + k] = (blocked >> k & 1U) != 0
                                  ? SkyRay{}
@@ -715,7 +595,7 @@ Rgb RayScene::transmittance(const Ray& ray) const {
 }
 
 Rgb RayScene::straight_through(const Hit& hit, const vec3& direction) const {
-    const bool filtering = filters_light(*impl_->materials[hit.surface], impl_->surfaces[hit.surface]);
+    const bool filtering = impl_->filters[hit.surface] != 0;
     return filtering ? impl_->filter(*this, hit, direction) : Rgb(0.0F);
 }
 

@@ -1,4 +1,4 @@
-// Rays against the scene's triangles. Embree is included by ray_scene.cpp and nowhere else.
+// Rays against the scene's triangles. Embree is used by ray_scene.cpp (embree_triangles.h) and nowhere else.
 #pragma once
 
 #include "engine/base/units.h"
@@ -84,6 +84,9 @@ public:
     /// other shown nodes, shapes, materials or textures, triangles that vanish or come back, another winding, other
     /// reflecting backs. Names, lights, cameras, environment and settings are not looked at.
     [[nodiscard]] std::optional<std::vector<MovedSurface>> move_to(const Scene& scene);
+    /// Makes rays as fast as in a scene that is built anew, where moves left them a little slower: takes most of the time of
+    /// building, and the next move of anything is a first one again. Answers stay; no query may run.
+    void settle();
 
     [[nodiscard]] const std::vector<RaySurface>& surfaces() const;
     /// World position of engine (0,0,0): the centre of the scene's bounds, rounded to whole metres.

@@ -62,6 +62,25 @@ bool same_lamps(const std::vector<PlacedLight>& a, const std::vector<PlacedLight
     });
 }
 
+// Fewer rays as long as it lives: what moves is looked at for the blink of an eye.
+class InAHurry {
+public:
+    explicit InAHurry(GatherSettings& settings) : settings_(settings), before_(settings) {
+        settings.rays = std::max(settings.rays / 4, 8U);
+        settings.sun_rays = std::max(settings.sun_rays / 2, 8U);
+        settings.sky_rays = std::max(settings.sky_rays / 3, 16U);
+        settings.tolerance *= 4.0F;
+        settings.max_cut /= 2;
+    }
+    ~InAHurry() { settings_ = before_; }
+    InAHurry(const InAHurry&) = delete;
+    InAHurry& operator=(const InAHurry&) = delete;
+
+private:
+    GatherSettings& settings_;
+    GatherSettings before_;
+};
+
 } // namespace
 
 bool GiEngine::can_update() const { return impl_->live != nullptr; }
@@ -127,6 +146,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     report.degraded = true;
 
     context.progress("direct", 0.1);
+    const InAHurry fewer_rays(s.field.direct);
     live.new_maps.resize(s.rays->surfaces().size(), 0);
     RepairReport repaired;
     repaired.complete = true;
@@ -167,10 +187,6 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     }
 
     context.progress("layers", 0.8);
-    GatherSettings hurried = s.field.direct; // vertices interpolate: a few rays do
-    hurried.rays = std::min(hurried.rays, 16U);
-    hurried.sun_rays = std::min(hurried.sun_rays, 8U);
-    hurried.sky_rays = std::min(hurried.sky_rays, 24U);
 
     for (std::size_t i = 0; i < live.layers.surfaces.size(); ++i) {
         const VertexPlaces& places = live.layers.places[i];
@@ -185,7 +201,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
                         (change.moved[places.surface] != 0 ||
                          std::any_of(change.boxes.begin(), change.boxes.end(),
                                      [&](const Box3& box) { return s.direct_light_touched(p.position, box); }))) {
-                        light[k] = s.direct_light(p.position, p.normal, hurried).irradiance;
+                        light[k] = s.direct_light(p.position, p.normal, s.field.direct).irradiance;
                         any.store(true, std::memory_order_relaxed);
                     }
                 }

@@ -1,0 +1,124 @@
+// Triangles in Embree: all that stand still in one structure, what was moved in a small one beside it. For ray_scene.cpp
+// alone.
+#pragma once
+
+#include "engine/raycast/ray_scene.h"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <embree3/rtcore.h>
+#include <span>
+#include <vector>
+
+namespace atrium {
+
+static_assert(RTC_INVALID_GEOMETRY_ID == Hit::kNone);
+
+/// Nearest triangle on a ray.
+struct TriangleHit {
+    std::uint32_t surface = Hit::kNone; ///< none: the rest means nothing
+    std::uint32_t triangle = 0;
+    float t = 0.0F;
+    vec2 barycentric{0.0F};
+};
+
+/// Surfaces are known by their index. Each is opaque or filters light (lets some of it through); queries are safe from any
+/// thread.
+class EmbreeTriangles {
+public:
+    EmbreeTriangles();
+    ~EmbreeTriangles();
+    EmbreeTriangles(const EmbreeTriangles&) = delete;
+    EmbreeTriangles& operator=(const EmbreeTriangles&) = delete;
+
+    /// One value of `filters` for each surface.
+    void build(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters);
+    /// Some surfaces have other positions (the same number of them) or filter otherwise; no query may run. `bounds` are
+    /// those of all surfaces.
+    void move(std::span<const std::uint32_t> moved, std::span<const RaySurface> surfaces,
+              const std::vector<std::uint8_t>& filters, std::span<const Box3> bounds);
+    [[nodiscard]] bool anything_moved() const { return moved_ != nullptr; } ///< since build()
+
+    /// Among all surfaces or among those that filter light. Call it in one place, where it is compiled in.
+    [[nodiscard]] TriangleHit nearest(bool only_filters, const vec3& from, const vec3& direction, float tnear,
+                                      float tfar) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRayHit query;
+        fill(query.ray, from, direction, tnear, tfar, only_filters ? kFilter : kOpaque | kFilter);
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(only_filters ? still_filters_ : still_, &context, &query);
+        if (moved_ != nullptr) {
+            take_nearer_of_moved(query);
+        }
+        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+            return {};
+        }
+        return {query.hit.geomID, query.hit.primID, query.ray.tfar, {query.hit.u, query.hit.v}};
+    }
+    /// Anything opaque on the ray?
+    [[nodiscard]] bool blocked(const vec3& from, const vec3& direction, float tnear, float tfar) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRay query;
+        fill(query, from, direction, tnear, tfar, kOpaque);
+        rtcOccluded1(still_, &context, &query);
+        return query.tfar < 0.0F || (moved_ != nullptr && blocked_by_moved(query));
+    }
+    /// Bit k is set where direction k (of at most 8) meets something opaque.
+    [[nodiscard]] unsigned blocked_of_8(const vec3& from, std::span<const vec3> directions, float tnear) const;
+
+    [[nodiscard]] std::size_t bytes() const { return bytes_; } ///< as Embree reports them
+
+private:
+    static constexpr unsigned kOpaque = 1; // stops light
+    static constexpr unsigned kFilter = 2; // clear panes, cut-outs, blended surfaces: some light goes through
+
+    // A box and a sphere around the same things, both with slack.
+    struct Reach {
+        Box3 box;
+        vec3 centre{0.0F};
+        float radius2 = -1.0F;
+        [[nodiscard]] bool empty() const { return radius2 < 0.0F; }
+    };
+
+    static void fill(RTCRay& ray, const vec3& from, const vec3& direction, float tnear, float tfar, unsigned mask) {
+        ray.org_x = from.x;
+        ray.org_y = from.y;
+        ray.org_z = from.z;
+        ray.dir_x = direction.x;
+        ray.dir_y = direction.y;
+        ray.dir_z = direction.z;
+        ray.tnear = tnear;
+        ray.tfar = tfar;
+        ray.mask = mask;
+        ray.time = 0.0F;
+        ray.id = 0;
+        ray.flags = 0;
+    }
+
+    // What was moved, after the rest was asked: apart, to stay out of the way where nothing ever was.
+    void take_nearer_of_moved(RTCRayHit& query) const;
+    [[nodiscard]] bool blocked_by_moved(RTCRay& query) const;
+
+    static bool meets(const Reach& reach, const vec3& origin, const vec3& direction, float tnear, float tfar);
+    static Reach reach_of(const Box3& bounds);
+    void release_scenes();
+    [[nodiscard]] RTCGeometry make(const RaySurface& surface, bool filters) const;
+    [[nodiscard]] RTCScene new_scene() const;
+
+    RTCDevice device_ = nullptr;
+    RTCScene still_ = nullptr;
+    RTCScene still_filters_ = nullptr;           // what lets light through, by itself: most rays meet none of it
+    RTCScene moved_ = nullptr;                   // none until something moves
+    std::vector<std::uint32_t> moved_surfaces_;  // by their number in `moved_`
+    std::vector<std::uint32_t> number_in_moved_; // by surface; Hit::kNone = it stands still
+    Reach moved_reach_;
+    Reach moved_filter_reach_; // of what filters among it
+    std::size_t triangles_ = 0;
+    std::atomic<std::size_t> bytes_{0};
+};
+
+} // namespace atrium
