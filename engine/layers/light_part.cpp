@@ -14,6 +14,9 @@ using State = LightNode::State;
 // Metres: cells that a covered place and an open one share are divided down to this, since a shadow may begin between them.
 constexpr float kCoverEdge = 0.04F;
 constexpr std::size_t kGrain = 32;
+// Samples of one repair: above the first number only the coarsest nodes are looked at, and of these the second at most.
+constexpr std::size_t kMostExact = 8192;
+constexpr std::size_t kMostCoarse = 1024;
 
 } // namespace
 
@@ -263,8 +266,8 @@ std::vector<std::uint8_t> LightPart::tiles_to_look_at(const LightChange& change)
 
 // Soft light costs many rays: of very many nodes those from where what moved looks largest, in order of index.
 void LightPart::keep_most_seen(const LightChange& change, std::vector<std::uint32_t>& nodes) const {
-    constexpr std::size_t kMost = 1024;
-    if (nodes.size() <= kMost) {
+
+    if (nodes.size() <= kMostCoarse) {
         return;
     }
     std::vector<std::pair<float, std::uint32_t>> seen;
@@ -277,8 +280,8 @@ void LightPart::keep_most_seen(const LightChange& change, std::vector<std::uint3
         }
         seen.emplace_back(-angle, i);
     }
-    std::nth_element(seen.begin(), seen.begin() + kMost, seen.end());
-    seen.resize(kMost);
+    std::nth_element(seen.begin(), seen.begin() + kMostCoarse, seen.end());
+    seen.resize(kMostCoarse);
     nodes.clear();
     for (const auto& [angle, i] : seen) {
         nodes.push_back(i);
@@ -319,7 +322,9 @@ std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
             asked.push_back(i);
         }
     }
-    if (part_.soft) {
+    coarse_repair_ = part_.soft || asked.size() > kMostExact;
+    if (coarse_repair_) {
+        std::erase_if(asked, [&](std::uint32_t i) { return ((cells_.nodes[i].x | cells_.nodes[i].y) & coarse) != 0; });
         keep_most_seen(change, asked);
     }
     for (const std::uint32_t i : asked) {
@@ -331,7 +336,7 @@ std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
         r.reach = glm::length(metres_per_step(n.sheet)) * float(cells_.steps(cells_.first_level()));
         requests_.push_back(r);
     }
-    if (part_.soft) {
+    if (coarse_repair_) {
         return asked;
     }
     const std::uint32_t s = cells_.steps(cells_.first_level());
@@ -419,7 +424,7 @@ bool LightPart::repair(const LightChange& change, const RunContext& context, std
             changed_sheets[now.sheet] = 1;
         }
     }
-    if (part_.soft) {
+    if (coarse_repair_) {
         if (going_on && !changed.empty()) {
             spread_change(asked, before);
         }

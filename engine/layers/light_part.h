@@ -101,9 +101,10 @@ private:
     std::vector<std::size_t> first_probe_; ///< per sheet; a probe per cell of the first level, row by row
     std::vector<Probe> probes_;
     std::vector<Request> requests_;
-    std::size_t asked_ = 0;   ///< nodes that were asked for
-    std::size_t taken_ = 0;   ///< samples
-    std::size_t sampled_ = 0; ///< nodes that were sampled
+    bool coarse_repair_ = false; ///< the repair at hand looks at the coarsest nodes only
+    std::size_t asked_ = 0;      ///< nodes that were asked for
+    std::size_t taken_ = 0;      ///< samples
+    std::size_t sampled_ = 0;    ///< nodes that were sampled
 };
 
 } // namespace atrium
