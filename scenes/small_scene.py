@@ -92,9 +92,10 @@ class Scene:
         """Writes <script's folder>/<name of the folder>.glb."""
         folder = os.path.dirname(os.path.abspath(script))
         name = os.path.basename(script)[len("make_"):-len(".py")].replace("_", "-")
+        held = {child for node in self.nodes for child in node.get("children", ())}
         document = {"asset": {"version": "2.0", "generator": "scenes/%s/%s" % (name, os.path.basename(script)),
                               "copyright": "The Atrium authors, Apache-2.0"},
-                    "scene": 0, "scenes": [{"name": self.name, "nodes": list(range(len(self.nodes)))}],
+                    "scene": 0, "scenes": [{"name": self.name, "nodes": [i for i in range(len(self.nodes)) if i not in held]}],
                     "nodes": self.nodes, "meshes": self.meshes, "cameras": self.cameras,
                     "materials": [{"name": key, **body} for key, body in self.materials],
                     "accessors": self.accessors, "bufferViews": self.views, "buffers": [{"byteLength": len(self.data)}]}
