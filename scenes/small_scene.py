@@ -106,7 +106,7 @@ class Scene:
             root["KHR_lights_punctual"] = {"lights": self.lights}
         if root:
             document["extensions"] = root
-        used = set(root) | {e for m in self.meshes for e in m.get("extensions", {})}
+        used = set(root) | {e for m in self.meshes + self.cameras for e in m.get("extensions", {})}
         used |= {e for _, body in self.materials for e in body.get("extensions", {})}
         document["extensionsUsed"] = sorted(used)
         text = json.dumps(document, separators=(",", ":")).encode()

@@ -10,13 +10,13 @@ import random
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from small_scene import Part, glass, glowing, pbr  # noqa: E402
+from small_scene import Part, facing, glass, glowing, pbr  # noqa: E402
 from large_scene import LargeScene, add, mul, quat_mul, reflect, rotate, sub, turn, unit  # noqa: E402
 
 W, E, N, S, H = -5.0, 5.0, -3.2, 3.2, 2.6        # planes that the logs of the outer walls touch, and the ceiling
 A0, A1 = 0.8, 0.95                               # partition between the living room and the others
 B0, B1 = -0.75, -0.6                             # partition between bathroom and bedroom
-LOG, COURSE, THICK = 0.11, 0.2, 0.22             # radius of a log, rise of a course, thickness of an outer wall
+LOG, COURSE, THICK = 0.125, 0.2, 0.25            # radius of a log, rise of a course, thickness of an outer wall
 SUN = unit((-0.69, -0.1405, -0.724))             # 8 degrees high, from the south-east
 MIRROR = (2.95, 1.45, B1 + 0.03)                 # of the bedroom
 LEAN = 5.0                                       # degrees by which the mirror of the living room leans back
@@ -24,6 +24,7 @@ FACING = {"N": 0.0, "S": 180.0, "E": -90.0, "W": 90.0}
 
 WOODS = ["Pine 1", "Pine 2", "Pine 3", "Pine 4"]
 OAKS = ["Oak 1", "Oak 2", "Oak 3", "Oak 4"]
+PAINTED = ["Painted wood 1", "Painted wood 2", "Painted wood 3"]
 LOGS = ["Log 1", "Log 2", "Log 3"]
 BOOKS = ["Book red", "Book blue", "Book green", "Book cream", "Book slate", "Book ochre", "Book brown"]
 
@@ -41,6 +42,7 @@ def two_sided(material):
 MATERIALS = {
     **tones("Pine", (0.58, 0.42, 0.25), 4, 0.13, 0.7), **tones("Oak", (0.40, 0.275, 0.165), 4, 0.14, 0.65),
     **tones("Log", (0.50, 0.34, 0.19), 3, 0.12, 0.75), **tones("Brick", (0.40, 0.19, 0.13), 3, 0.16, 0.9),
+    **tones("Painted wood", (0.66, 0.67, 0.60), 3, 0.06, 0.8), **tones("Ceiling board", (0.66, 0.53, 0.37), 3, 0.08, 0.8),
     **tones("Slate", (0.24, 0.25, 0.26), 3, 0.14, 0.6), **tones("Tile", (0.66, 0.70, 0.70), 3, 0.05, 0.55),
     "Ceiling pine": pbr((0.66, 0.53, 0.37), 0.8), "Painted pine": pbr((0.66, 0.67, 0.60), 0.8),
     "Walnut": pbr((0.20, 0.125, 0.075), 0.6), "Bark": pbr((0.17, 0.12, 0.08), 0.95), "Plaster": pbr((0.74, 0.72, 0.67), 0.95),
@@ -95,13 +97,14 @@ def log_walls(s, house):
     for side in "ESWN":
         along_x = side in "NS"
         plane = {"E": E + LOG, "W": W - LOG, "N": N - LOG, "S": S + LOG}[side]
-        low, high = (W - 0.42, E + 0.42) if along_x else (N - 0.42, S + 0.42)
+        low, high = (W - 0.42, E + 0.42) if along_x else (N - 0.07, S + 0.07)
+        gaps = {"E": [(B0, B1)], "N": [(A0, A1)], "S": [(A0, A1)], "W": []}[side]  # where partitions stand
         holes = [(m - w / 2, m + w / 2, y0, y1) for _, at, m, w, y0, y1, _ in WINDOWS if at == side]
         holes += [(FRONT_DOOR[0], FRONT_DOOR[1], 0.0, FRONT_DOOR[2])] if side == "S" else []
         wall = s.group("Log wall %s" % {"E": "east", "W": "west", "N": "north", "S": "south"}[side], group)
         for k in range(14 if along_x else 13):
-            y = COURSE * k + (0.0 if along_x else LOG - 0.01)
-            cuts = [(a, b) for a, b, y0, y1 in holes if y0 - 0.11 < y < y1]
+            y = COURSE * k + (0.0 if along_x else COURSE / 2)
+            cuts = [(a, b) for a, b, y0, y1 in holes if y0 < y < y1] + gaps
             for i, (a, b) in enumerate(pieces(low, high, cuts)):
                 p, q = ((a, y, plane), (b, y, plane)) if along_x else ((plane, y, a), (plane, y, b))
                 s.rod("Log %s %d.%d" % (side, k + 1, i + 1), wall, p, q, LOG, rng.choice(LOGS))
@@ -145,12 +148,12 @@ def windows(s, house):
                 s.box("%s bar %d" % (name, i + 1), window, ((a + c) / 2, height * 0.6, z), (c - a, 0.022, 0.03), "Painted pine")
                 for tag, ya, yb in (("lower", low + b, height * 0.6 - 0.011), ("upper", height * 0.6 + 0.011, high - b)):
                     s.sheet("%s pane %s %d" % (name, tag, i + 1), window, ((a + c) / 2, (ya + yb) / 2, z), (c - a, yb - ya), "Pane")
-            s.ball("%s knob" % name, window, (0.0, height * 0.45, z + 0.045), 0.018, "Painted pine")
+            s.rod("%s knob" % name, window, (0.0, height * 0.45, z + 0.02), (0.0, height * 0.45, z + 0.055), 0.012, "Brass", 0.018)
         if side == "S" or name == "Bedroom window":
             rod = height + 0.17
             s.rod("%s curtain rod" % name, window, (-width / 2 - 0.42, rod, 0.09), (width / 2 + 0.42, rod, 0.09), 0.012, "Black steel")
             for tag, sx in (("left", -1), ("right", 1)):
-                s.ball("%s finial %s" % (name, tag), window, (sx * (width / 2 + 0.43), rod, 0.09), 0.022, "Walnut")
+                s.rod("%s finial %s" % (name, tag), window, (sx * (width / 2 + 0.415), rod, 0.09), (sx * (width / 2 + 0.455), rod, 0.09), 0.016, "Walnut", 0.024)
                 s.box("%s bracket %s" % (name, tag), window, (sx * (width / 2 + 0.2), rod, 0.04), (0.02, 0.02, 0.08), "Black steel")
                 s.node("%s curtain %s" % (name, tag), (sx * (width / 2 + 0.23), rod - 1.56, 0.09), parent=window,
                        mesh=s.mesh("Curtain", cloth))
@@ -169,8 +172,8 @@ def curtain(width, height, steps=40, folds=5):
     return cloth
 
 
-def planks(s, name, parent, place, low, high, y0, y1, materials, rng, holes=(), step=0.14):
-    """Upright boards of 15 mm side by side; place(a, b, y0, y1) gives the corners of one."""
+def planks(s, name, parent, place, low, high, y0, y1, materials, rng, holes=(), step=0.115):
+    """Upright boards side by side; place(a, b, y0, y1) gives the corners of one."""
     count = round((high - low) / step)
     width = (high - low) / count
     n = 0
@@ -184,7 +187,7 @@ def planks(s, name, parent, place, low, high, y0, y1, materials, rng, holes=(), 
         for u, v, bottom in parts:
             if v - u > 0.006:
                 n += 1
-                s.span("%s %d" % (name, n), parent, *place(u + 0.0015, v - 0.0015, bottom, y1), rng.choice(materials))
+                s.span("%s %d" % (name, n), parent, *place(u, v, bottom, y1), rng.choice(materials))
 
 
 def partitions(s, house):
@@ -201,11 +204,11 @@ def partitions(s, house):
     planks(s, "Living room plank", s.group("Living room planks", group), lambda a, b, y0, y1: ((A0, y0, a), (A0 + t, y1, b)),
            N - 0.06, S + 0.06, 0.0, H, WOODS, rng, holes)
     planks(s, "Bedroom plank west", s.group("Bedroom planks west", group), lambda a, b, y0, y1: ((A1 - t, y0, a), (A1, y1, b)),
-           B1, S + 0.06, 0.0, H, ["Painted pine"], rng, holes)
+           B1, S + 0.06, 0.0, H, PAINTED, rng, holes)
     planks(s, "Bedroom plank north", s.group("Bedroom planks north", group), lambda a, b, y0, y1: ((a, y0, B1 - t), (b, y1, B1)),
            A1, E + 0.06, 0.0, H, WOODS, rng)
     planks(s, "Bathroom plank west", s.group("Bathroom planks west", group), lambda a, b, y0, y1: ((A1 - t, y0, a), (A1, y1, b)),
-           N - 0.06, B0, 0.0, H, ["Painted pine"], rng, holes)
+           N - 0.06, B0, 0.0, H, PAINTED, rng, holes)
     bath = s.group("Bathroom tiles", group)
     s.span("Bathroom plaster south", bath, (A1, 1.25, B0), (E + 0.06, H, B0 + t), "Plaster")
     columns = 26
@@ -222,16 +225,16 @@ def partitions(s, house):
         s.box(name + " threshold", door, (0, 0.004, -(A1 - A0) / 2), (b - a - 0.062, 0.02, A1 - A0 + 0.02), "Walnut")
     # Doors of boards: the one to the bedroom stands open along the partition, the front door is shut.
     a, b, top = FRONT_DOOR
-    for name, width, height, offset, angle in (("Bedroom door", 0.70, 1.98, (A0 - 0.03, 0.012, 0.40), 92.0),
-                                               ("Bathroom door", 0.67, 1.98, (A0 - 0.03, 0.012, -1.26), 95.0),
-                                               ("Front door", b - a - 0.07, top - 0.05, (b - 0.035, 0.012, S + 0.10), 0.0)):
-        door = s.group(name, house, offset, turn("y", 180.0 + (angle if angle == 0.0 else -90.0 + angle - 180.0)))
+    for name, width, height, offset, angle in (("Bedroom door", 0.71, 1.985, (A1 + 0.03, 0.015, 0.31), -6.0),
+                                               ("Bathroom door", 0.68, 1.985, (A1 + 0.03, 0.015, -2.0), 6.0),
+                                               ("Front door", b - a - 0.05, top - 0.01, (b - 0.025, 0.005, S + 0.10), 180.0)):
+        door = s.group(name, house, offset, turn("y", angle))
         count = 6
         for k in range(count):
             w = width / count
-            s.box("%s board %d" % (name, k + 1), door, ((k + 0.5) * w, height / 2, 0.0), (w - 0.002, height, 0.03), WOODS[(k * 3) % 4])
+            s.box("%s board %d" % (name, k + 1), door, ((k + 0.5) * w, height / 2, 0.0), (w, height, 0.03), WOODS[(k * 3) % 4])
         for k, y in enumerate((0.22, 1.0, height - 0.22)):
-            s.box("%s batten %d" % (name, k + 1), door, (width / 2, y, 0.022), (width - 0.08, 0.10, 0.0139), "Walnut")
+            s.box("%s batten %d" % (name, k + 1), door, (width / 2, y, 0.022), (width - 0.08, 0.10, 0.014), "Walnut")
         for tag, z in (("front", 0.05), ("back", -0.05)):
             s.ball("%s knob %s" % (name, tag), door, (width - 0.06, 1.13, z), 0.026, "Brass")
             s.rod("%s spindle %s" % (name, tag), door, (width - 0.06, 1.13, 0.0), (width - 0.06, 1.13, z), 0.009, "Brass")
@@ -244,7 +247,7 @@ def floors(s, house):
     rng = random.Random(23)
     s.span("Subfloor", house, (W - 0.25, -0.08, N - 0.25), (E + 0.25, -0.022, S + 0.25), "Subfloor")
     s.span("Roof deck", house, (W - 0.45, H + 0.02, N - 0.45), (E + 0.45, H + 0.14, S + 0.45), "Ceiling pine")
-    for room, x0, x1, z0, z1, step in (("Living room", W - 0.09, A0 + 0.014, N - 0.09, S + 0.09, 0.172),
+    for room, x0, x1, z0, z1, step in (("Living room", W - 0.09, A0 + 0.014, N - 0.09, S + 0.09, 0.15),
                                        ("Bedroom", A0 + 0.015, E + 0.09, B1 - 0.014, S + 0.09, 0.165)):
         group = s.group(room + " floor", house)
         count = round((x1 - x0) / step)
@@ -265,11 +268,11 @@ def floors(s, house):
     for room, x0, x1, z0, z1 in (("Living room", W - 0.09, A0 + 0.014, N - 0.09, S + 0.09), ("Bedroom", A1 - 0.014, E + 0.09, B1 - 0.014, S + 0.09),
                                  ("Bathroom", A1 - 0.014, E + 0.09, N - 0.09, B0 + 0.014)):
         group = s.group(room + " ceiling", house)
-        count = round((z1 - z0) / 0.32)
+        count = round((z1 - z0) / 0.16)
         width = (z1 - z0) / count
         for k in range(count):
-            s.span("%s ceiling board %d" % (room, k + 1), group, (x0, H, z0 + k * width + 0.001), (x1, H + 0.02, z0 + (k + 1) * width - 0.001),
-                   "Ceiling pine")
+            s.span("%s ceiling board %d" % (room, k + 1), group, (x0, H, z0 + k * width), (x1, H + 0.02, z0 + (k + 1) * width),
+                   rng.choice(["Ceiling board 1", "Ceiling board 2", "Ceiling board 3"]))
     beams = s.group("Beams", house)
     for k, x in enumerate((-4.3, -2.9, -1.5, -0.1)):
         s.rod("Beam living room %d" % (k + 1), beams, (x, H - 0.085, N - 0.1), (x, H - 0.085, S + 0.1), 0.1, LOGS[k % 3])
@@ -283,7 +286,7 @@ def floors(s, house):
 def tumbler():
     p = Part("Glass")
     p.lathe([(0.0, 0.0), (0.030, 0.0), (0.030, 0.0), (0.036, 0.10), (0.036, 0.10), (0.0335, 0.10), (0.0335, 0.10), (0.028, 0.014),
-             (0.020, 0.010), (0.0, 0.010)], 40)
+             (0.0, 0.010)], 32)
     return p
 
 
@@ -293,8 +296,8 @@ def bottle(material, high=0.28):
     k = high / 0.28
     outer = [(0.034, 0.0), (0.037, 0.006), (0.038, 0.02), (0.038, 0.15), (0.034, 0.175), (0.022, 0.20), (0.015, 0.22), (0.014, 0.28)]
     inner = [(r - 0.003, y) for r, y in reversed(outer[3:])]
-    shape = [(0.0, 0.0), outer[0], outer[0]] + outer[1:] + [outer[-1], inner[0], inner[0]] + inner[1:] + [(0.035, 0.02), (0.028, 0.012), (0.0, 0.012)]
-    p.lathe([(r, y * k) for r, y in shape], 40)
+    shape = [(0.0, 0.0), outer[0], outer[0]] + outer[1:] + [outer[-1], inner[0], inner[0]] + inner[1:] + [(0.035, 0.02), (0.0, 0.014)]
+    p.lathe([(r, y * k) for r, y in shape], 32)
     return p
 
 
@@ -302,16 +305,16 @@ def vase(material):
     p = Part(material)
     outer = [(0.042, 0.0), (0.055, 0.02), (0.066, 0.07), (0.066, 0.11), (0.052, 0.17), (0.040, 0.21), (0.042, 0.235), (0.055, 0.26)]
     inner = [(r - 0.005, y) for r, y in reversed(outer[1:])]
-    p.lathe([(0.0, 0.0), outer[0], outer[0]] + outer[1:] + [outer[-1], inner[0], inner[0]] + inner[1:] + [(0.034, 0.016), (0.0, 0.016)], 40)
+    p.lathe([(0.0, 0.0), outer[0], outer[0]] + outer[1:] + [outer[-1], inner[0], inner[0]] + inner[1:] + [(0.034, 0.016), (0.0, 0.016)], 32)
     return p
 
 
-def bowl(material, radius, height, segments=40):
+def bowl(material, radius, height, segments=32, steps=7):
     """Of sheet metal or clay, open above."""
     p = Part(material)
-    turnings = [k / 8 * math.pi / 2 for k in range(9)]
+    turnings = [k / steps * math.pi / 2 for k in range(steps + 1)]
     outer = [(radius * (0.35 + 0.65 * math.sin(a)), height * (1 - math.cos(a))) for a in turnings]
-    inner = [(r - 0.004, y + 0.004 * (1 - k / 8)) for k, (r, y) in enumerate(outer)]
+    inner = [(r - 0.004, y + 0.004 * (1 - k / steps)) for k, (r, y) in enumerate(outer)]
     p.lathe([(0.0, 0.0), outer[0], outer[0]] + outer[1:] + [outer[-1], inner[-1], inner[-1]] + list(reversed(inner))[1:] + [(0.0, 0.004)], segments)
     return p
 
@@ -326,18 +329,18 @@ def plate(radius, material="Porcelain"):
 def cup(material):
     p = Part(material)
     p.lathe([(0.0, 0.0), (0.024, 0.0), (0.024, 0.0), (0.036, 0.03), (0.04, 0.08), (0.04, 0.08), (0.037, 0.08), (0.037, 0.08), (0.033, 0.032),
-             (0.02, 0.006), (0.0, 0.006)], 32)
+             (0.02, 0.006), (0.0, 0.006)], 24)
     handle = [(0.038 + 0.022 * math.sin(math.pi * k / 5), 0.018 + 0.045 * k / 5, 0.0) for k in range(6)]
     for a, b in zip(handle, handle[1:]):
         d = sub(b, a)
         length = math.sqrt(sum(c * c for c in d))
         y = mul(d, 1 / length)
         x = (y[1], -y[0], 0.0)
-        p.tube(0.004, 0.0, length, 8, lambda q, a=a, x=x, y=y: add(a, add(add(mul(x, q[0]), mul(y, q[1])), (0.0, 0.0, q[2]))))
+        p.tube(0.004, 0.0, length, 6, lambda q, a=a, x=x, y=y: add(a, add(add(mul(x, q[0]), mul(y, q[1])), (0.0, 0.0, q[2]))))
     return p
 
 
-def cushion(s, name, parent, offset, size, radius, material, rotation=None, steps=3):
+def cushion(s, name, parent, offset, size, radius, material, rotation=None, steps=2):
     p = Part(material)
     p.cushion((0, 0, 0), size, radius, steps)
     return s.node(name, offset, rotation, parent, mesh=s.mesh(name, p))
@@ -348,7 +351,7 @@ def things(s):
     m = {"tumbler": s.mesh("Tumbler", tumbler()), "plate": s.mesh("Plate", plate(0.13)), "small plate": s.mesh("Small plate", plate(0.09)),
          "blue plate": s.mesh("Blue plate", plate(0.13, "Blue glaze")), "copper bowl": s.mesh("Copper bowl", bowl("Copper", 0.11, 0.07)),
          "brass bowl": s.mesh("Brass bowl", bowl("Brass", 0.07, 0.045)), "steel bowl": s.mesh("Steel bowl", bowl("Steel", 0.12, 0.08)),
-         "clay bowl": s.mesh("Clay bowl", bowl("Green glaze", 0.14, 0.08)), "small bowl": s.mesh("Small bowl", bowl("Porcelain", 0.075, 0.05))}
+         "clay bowl": s.mesh("Clay bowl", bowl("Green glaze", 0.14, 0.08, 32, 6)), "small bowl": s.mesh("Small bowl", bowl("Porcelain", 0.075, 0.05, 24, 5))}
     for colour in ("Porcelain", "Blue glaze", "Green glaze"):
         m["cup " + colour] = s.mesh("Cup " + colour.lower(), cup(colour))
     for colour in ("Glass", "Green glass", "Amber glass", "Blue glass"):
@@ -367,11 +370,10 @@ def chair(s, name, parent, offset, yaw, seat="Oak 2"):
     for i, (z, y) in enumerate(((0.18, 0.18), (-0.18, 0.22))):
         s.rod("%s rung %d" % (name, i + 1), g, (-0.176, y, z), (0.176, y, z), 0.011, "Oak 1")
     for i, x in enumerate((-0.175, 0.175)):
-        s.rod("%s post %d" % (name, i + 1), g, (x, 0.465, -0.185), (x, 0.92, -0.25), 0.017, "Oak 1")
-        s.ball("%s finial %d" % (name, i + 1), g, (x, 0.94, -0.253), 0.022, "Oak 1")
+        s.rod("%s post %d" % (name, i + 1), g, (x, 0.465, -0.185), (x, 0.945, -0.254), 0.019, "Oak 1", 0.0133)
     for i in range(5):
         x = -0.11 + 0.055 * i
-        s.rod("%s spindle %d" % (name, i + 1), g, (x, 0.465, -0.188), (x, 0.84, -0.238), 0.008, "Oak 1")
+        s.box("%s spindle %d" % (name, i + 1), g, (x, 0.6525, -0.213), (0.022, 0.376, 0.010), "Oak 1", turn("x", -7.6))
     s.box(name + " top rail", g, (0, 0.865, -0.243), (0.33, 0.075, 0.02), "Oak 1", turn("x", -8.0))
 
 
@@ -379,7 +381,7 @@ def books(s, name, parent, x0, x1, y, z, room, rng):
     """A row along x whose spines lie at z; the last ones lean or lie now and then."""
     x, n, stop = x0, 0, x0 + (x1 - x0) * (0.72 + 0.26 * rng.random())
     while True:
-        thick, tall, deep = 0.02 + 0.022 * rng.random(), room * (0.62 + 0.28 * rng.random()), 0.15 + 0.05 * rng.random()
+        thick, tall, deep = 0.014 + 0.02 * rng.random(), room * (0.62 + 0.28 * rng.random()), 0.15 + 0.05 * rng.random()
         if x + thick > stop:
             break
         n += 1
@@ -387,7 +389,7 @@ def books(s, name, parent, x0, x1, y, z, room, rng):
         label = "Gilt" if cover != "Book cream" and rng.random() < 0.6 else "Paper" if cover != "Book cream" else "Book red"
         s.span("%s %d" % (name, n), parent, (x, y, z - deep), (x + thick - 0.0015, y + tall, z), cover)
         high = y + tall * (0.62 + 0.2 * rng.random())
-        s.span("%s %d label" % (name, n), parent, (x + 0.003, high, z - 0.001), (x + thick - 0.0045, high + 0.035, z + 0.0008), label)
+        s.span("%s %d label" % (name, n), parent, (x + 0.002, high, z - 0.001), (x + thick - 0.0035, high + 0.035, z + 0.0008), label)
         x += thick
     return x
 
@@ -449,8 +451,7 @@ def drawers(s, name, parent, x0, x1, y0, y1, z, columns, rows, front, knob, knob
             s.box("%s %d" % (name, n), parent, (cx, cy, z + 0.006), (w - 0.012, h - 0.012, 0.012), front)
             for k in range(knobs):
                 x = cx + (0.0 if knobs == 1 else (k - 0.5) * w * 0.5)
-                s.rod("%s %d stem %d" % (name, n, k + 1), parent, (x, cy, z + 0.012), (x, cy, z + 0.022), 0.006, knob)
-                s.ball("%s %d knob %d" % (name, n, k + 1), parent, (x, cy, z + 0.032), 0.014, knob)
+                s.rod("%s %d knob %d" % (name, n, k + 1), parent, (x, cy, z + 0.012), (x, cy, z + 0.036), 0.010, knob, 0.015)
 
 
 # ---------------------------------------------------------------- living room
@@ -482,7 +483,7 @@ def stove(s, room):
     s.rod("Stove pipe", c, (0, 0.76, -0.08), (0, 2.56, -0.08), 0.075, "Cast iron")
     s.rod("Stove pipe collar", c, (0, 2.50, -0.08), (0, 2.551, -0.08), 0.13, "Cast iron")
     s.rod("Kettle", c, (0.16, 0.76, 0.08), (0.16, 0.90, 0.08), 0.10, "Copper", 0.07)
-    s.ball("Kettle knob", c, (0.16, 0.915, 0.08), 0.016, "Walnut")
+    s.rod("Kettle knob", c, (0.16, 0.90, 0.08), (0.16, 0.925, 0.08), 0.01, "Walnut", 0.016)
     s.rod("Kettle spout", c, (0.24, 0.81, 0.08), (0.33, 0.885, 0.08), 0.018, "Copper", 0.01)
     rack = s.group("Firewood", g, (-3.35, 0.0, -2.92))
     for i, x in enumerate((-0.29, 0.29)):
@@ -562,7 +563,16 @@ def kitchen(s, room, m):
         x = -1.03 + 0.001 * i + 0.115 * i
         s.rod("Counter jar %d" % (i + 1), g, (x, 0.9, N + 0.12), (x, 0.9 + h, N + 0.12), r, ["Porcelain", "Blue glaze"][i % 2])
         s.rod("Counter jar %d lid" % (i + 1), g, (x, 0.9 + h, N + 0.12), (x, 0.918 + h, N + 0.12), r * 0.95, "Oak 2")
-        s.ball("Counter jar %d knob" % (i + 1), g, (x, 0.93 + h, N + 0.12), 0.014, "Oak 2")
+        s.rod("Counter jar %d knob" % (i + 1), g, (x, 0.918 + h, N + 0.12), (x, 0.942 + h, N + 0.12), 0.010, "Oak 2", 0.014)
+    tiles = s.group("Kitchen splashback", g)
+    rng = random.Random(35)
+    s.span("Kitchen splashback panel", tiles, (x0, 0.9, N - 0.05), (x1, 1.0, N + 0.012), "Mortar")
+    count = 37
+    for i in range(count):
+        for j in range(2):
+            a, w = x0 + (x1 - x0) * i / count, (x1 - x0) / count
+            s.span("Kitchen tile %d.%d" % (i + 1, j + 1), tiles, (a + 0.001, 0.901 + 0.05 * j, N), (a + w - 0.001, 0.949 + 0.05 * j, N + 0.018),
+                   "Blue glaze" if (i + j) % 2 else rng.choice(["Tile 1", "Tile 2", "Tile 3"]))
     s.box("Chopping board", g, (0.1, 0.91, N + 0.42), (0.34, 0.02, 0.22), "Pine 3", turn("y", 12))
     rail = s.group("Kitchen rail", g, (A0, 1.62, -2.85), turn("y", -90.0))
     s.rod("Kitchen rail rod", rail, (-0.32, 0, 0.05), (0.32, 0, 0.05), 0.008, "Black steel")
@@ -571,7 +581,7 @@ def kitchen(s, room, m):
     for i in range(5):
         x, r = -0.24 + 0.12 * i, 0.03 + 0.006 * (i % 3)
         s.rod("Utensil %d handle" % (i + 1), rail, (x, -0.01, 0.05), (x, -0.24, 0.05), 0.005, "Walnut")
-        s.ball("Utensil %d head" % (i + 1), rail, (x, -0.24 - r * 0.6, 0.05), r, "Walnut" if i % 2 else "Black steel", 0.7)
+        s.rod("Utensil %d head" % (i + 1), rail, (x, -0.24, 0.05), (x, -0.24 - r * 1.4, 0.05), 0.01, "Walnut" if i % 2 else "Black steel", 0.8 * r)
 
 
 def dining(s, room, m):
@@ -586,7 +596,7 @@ def dining(s, room, m):
         s.box("Table apron %s" % tag, g, (x, 0.67, 0), (0.022, 0.09, 0.66), "Oak 1")
         for k, z in enumerate((-0.36, 0.36)):
             s.rod("Table leg %s %d" % (tag, k + 1), g, (x, 0.0, z), (x, 0.714, z), 0.028, "Oak 1", 0.04)
-            s.ball("Table leg ring %s %d" % (tag, k + 1), g, (x, 0.5, z), 0.05, "Oak 1", 0.4)
+            s.rod("Table leg ring %s %d" % (tag, k + 1), g, (x, 0.5, z), (x, 0.53, z), 0.045, "Oak 1")
     places = [(-0.5, -0.30, 0), (0.1, -0.30, 0), (-0.5, 0.30, 180), (0.1, 0.30, 180), (0.66, 0.0, 270), (-0.68, 0.0, 90)]
     seats = [(-0.5, -0.60, 0), (0.1, -0.58, 4), (-0.5, 0.62, 183), (0.1, 0.60, 178), (1.02, 0.02, 272), (-1.06, -0.03, 88)]
     for i, ((x, z, yaw), (cx, cz, cyaw)) in enumerate(zip(places, seats)):
@@ -614,7 +624,7 @@ def sitting(s, room, m):
         for i in range(22):
             z = 0.87 + 1.61 * i / 21
             sx = -1 if tag == "west" else 1
-            s.rod("Rug fringe %s %d" % (tag, i + 1), g, (x, 0.006, z), (x + sx * 0.05, 0.004, z + 0.004), 0.0035, "Wool cream", capped=True)
+            s.box("Rug fringe %s %d" % (tag, i + 1), g, (x + sx * 0.025, 0.004, z), (0.05, 0.005, 0.007), "Wool cream")
     sofa = s.group("Sofa", g, (-1.95, 0.0, 2.72), turn("y", 180.0))
     cushion(s, "Sofa base", sofa, (0, 0.24, 0), (2.0, 0.22, 0.84), 0.03, "Wool green")
     cushion(s, "Sofa back", sofa, (0, 0.52, -0.34), (1.66, 0.56, 0.15), 0.05, "Wool green")
@@ -633,8 +643,17 @@ def sitting(s, room, m):
         s.rod("Coffee table leg %d" % (i + 1), table, (x * 0.49, 0.0, z * 0.23), (x * 0.47, 0.40, z * 0.22), 0.02, "Oak 1", 0.026)
     s.box("Coffee table shelf", table, (0, 0.17, 0), (0.94, 0.018, 0.44), "Oak 2")
     s.node("Coffee table vase", (0.3, 0.4305, -0.1), None, table, mesh=m["vase Glass"])
-    s.node("Coffee table brass bowl", (-0.05, 0.4305, 0.08), None, table, mesh=m["brass bowl"])
+    s.node("Coffee table brass bowl", (0.44, 0.4305, 0.14), None, table, mesh=m["brass bowl"])
     s.node("Coffee table tumbler", (-0.36, 0.4305, 0.1), None, table, mesh=m["tumbler"])
+    chess = s.group("Chess", table, (-0.02, 0.43, 0.04), turn("y", 14.0))
+    s.box("Chess board", chess, (0, 0.006, 0), (0.34, 0.012, 0.34), "Walnut")
+    for i in range(8):
+        for j in range(8):
+            x, z = 0.037 * (i - 3.5), 0.037 * (j - 3.5)
+            s.box("Chess square %d.%d" % (i + 1, j + 1), chess, (x, 0.0135, z), (0.0362, 0.003, 0.0362), "Walnut" if (i + j) % 2 else "Pine 4")
+            if j in (1, 3, 6) and (i * 7 + j) % 3 == 0 or (j in (0, 7) and i in (2, 4, 6)):
+                tall = 0.03 if j in (1, 3, 6) else 0.055
+                s.rod("Chess piece %d.%d" % (i + 1, j + 1), chess, (x, 0.015, z), (x, 0.015 + tall, z), 0.012, "Black steel" if j > 4 else "Wax", 0.006)
     s.rod("Candle", table, (-0.3, 0.43, -0.12), (-0.3, 0.55, -0.12), 0.03, "Wax")
     s.ball("Candle flame", table, (-0.3, 0.572, -0.12), 0.010, "Flame", 1.9)
     for i, (c, yaw) in enumerate((("Book blue", 6), ("Book ochre", -9), ("Book slate", 3))):
@@ -649,8 +668,9 @@ def sitting(s, room, m):
             s.rod("Armchair foot %s %d" % (tag, k + 1), chairs, (x * 0.9, 0.0, z), (x * 0.9, 0.19, z), 0.014, "Walnut", 0.02)
     bookcase(s, "Tall bookcase", g, (A0 - 0.001, 0.0, 2.60), -90.0, 1.0, [0.08, 0.42, 0.76, 1.08, 1.40, 1.70], 2.0, "Walnut", 41)
     bookcase(s, "Second bookcase", g, (A0 - 0.001, 0.0, 1.53), -90.0, 1.0, [0.08, 0.42, 0.76, 1.08, 1.40, 1.70], 2.0, "Walnut", 42)
-    bookcase(s, "Low bookcase", g, (W + 0.001, 0.0, 1.95), 90.0, 1.6, [0.07, 0.43], 0.80, "Oak 2", 43)
-    low = s.group("Low bookcase things", g, (W, 0.821, 1.95), turn("y", 90.0))  # local x runs to the north
+    bookcase(s, "Low bookcase", g, (W + 0.001, 0.0, 1.95), 90.0, 1.6, [0.07, 0.41, 0.73], 1.03, "Oak 2", 43)
+    bookcase(s, "Window bookcase", g, (W + 0.001, 0.0, -1.2), 90.0, 1.5, [0.07, 0.43], 0.80, "Oak 3", 45)
+    low = s.group("Low bookcase things", g, (W, 1.051, 1.95), turn("y", 90.0))  # local x runs to the north
     for i, (kind, x, z) in enumerate((("bottle Green glass", -0.62, 0.14), ("bottle Glass", -0.46, 0.18), ("vase Amber glass", -0.2, 0.15),
                                       ("flask Blue glass", 0.02, 0.2), ("copper bowl", 0.26, 0.15), ("flask Amber glass", 0.5, 0.12), ("flask Glass", 0.62, 0.2))):
         s.node("Shelf glass %d" % (i + 1), (x, 0.0005, z), None, low, mesh=m[kind])
@@ -664,7 +684,6 @@ def sitting(s, room, m):
     for i in range(4):
         x = -0.18 + 0.12 * i
         s.rod("Coat hook %d" % (i + 1), hooks, (x, 0, 0.02), (x, 0.02, 0.075), 0.007, "Black steel")
-        s.ball("Coat hook %d end" % (i + 1), hooks, (x, 0.022, 0.08), 0.014, "Black steel")
     pot = s.group("Plant", g, (-4.55, 0.0, 2.85))
     s.rod("Plant pot", pot, (0, 0, 0), (0, 0.3, 0), 0.13, "Terracotta", 0.175)
     s.rod("Plant soil", pot, (0, 0.3, 0), (0, 0.303, 0), 0.15, "Subfloor")
@@ -728,10 +747,10 @@ def bedroom(s, house, m):
     for side, x in (("left", -0.8), ("right", 0.8)):
         s.box("Bed side " + side, bed, (x, 0.32, 0.01), (0.03, 0.14, 1.98), "Log 2")
     cushion(s, "Mattress", bed, (0, 0.44, 0.01), (1.54, 0.2, 1.94), 0.06, "Wool cream")
-    cushion(s, "Duvet", bed, (0, 0.545, 0.24), (1.62, 0.10, 1.46), 0.045, "Wool grey", steps=4)
-    cushion(s, "Throw", bed, (0, 0.563, 0.70), (1.64, 0.10, 0.42), 0.045, "Wool red", steps=4)
+    cushion(s, "Duvet", bed, (0, 0.545, 0.24), (1.62, 0.10, 1.46), 0.045, "Wool grey", steps=3)
+    cushion(s, "Throw", bed, (0, 0.563, 0.70), (1.64, 0.10, 0.42), 0.045, "Wool red", steps=3)
     for tag, x in (("left", 0.38), ("right", -0.38)):
-        cushion(s, "Bed pillow " + tag, bed, (x, 0.60, -0.72), (0.66, 0.16, 0.42), 0.07, "Linen", turn("x", 14.0), 4)
+        cushion(s, "Bed pillow " + tag, bed, (x, 0.60, -0.72), (0.66, 0.16, 0.42), 0.07, "Linen", turn("x", 14.0), 3)
     for tag, x in (("west", 2.22), ("east", 4.48)):
         n = s.group("Nightstand " + tag, room, (x, 0.0, 2.96), turn("y", 180.0))
         s.box("Nightstand %s body" % tag, n, (0, 0.29, 0), (0.42, 0.46, 0.36), "Walnut")
@@ -756,7 +775,8 @@ def bedroom(s, house, m):
         s.box("Wardrobe door %d" % (i + 1), wardrobe, (x, 1.04, 0.532), (0.485, 1.86, 0.02), "Oak 2")
         for j, (y, h) in enumerate(((0.6, 0.8), (1.5, 0.8))):
             s.box("Wardrobe panel %d.%d" % (i + 1, j + 1), wardrobe, (x, y, 0.547), (0.35, h, 0.01), "Oak 1")
-        s.ball("Wardrobe knob %d" % (i + 1), wardrobe, (x + (0.19 if i == 0 else -0.19), 1.05, 0.57), 0.02, "Porcelain")
+        k = x + (0.19 if i == 0 else -0.19)
+        s.rod("Wardrobe knob %d" % (i + 1), wardrobe, (k, 1.05, 0.55), (k, 1.05, 0.58), 0.014, "Porcelain", 0.02)
     bookcase(s, "Bedroom bookcase", room, (1.75, 0.0, B1 + 0.001), 0.0, 0.95, [0.08, 0.42, 0.76, 1.08, 1.40], 1.72, "Oak 3", 44)
     for i in range(3):
         s.box("Bookcase box %d" % (i + 1), room, (1.5 + 0.25 * i, 1.795, B1 + 0.15), (0.2, 0.105, 0.2), ["Wool grey", "Print warm", "Book cream"][i])
@@ -792,13 +812,22 @@ def bathroom(s, house, m):
             shell.polygon(corners)
     s.node("Bathtub shell", None, None, tub, mesh=s.mesh("Bathtub shell", shell))
     for i, (x, z) in enumerate(((-1, -1), (1, -1), (-1, 1), (1, 1))):
-        s.ball("Bathtub foot %d" % (i + 1), tub, (x * 0.45, 0.045, z * 0.17), 0.045, "Cast iron")
+        s.rod("Bathtub foot %d" % (i + 1), tub, (x * 0.40, 0.0, z * 0.15), (x * 0.40, 0.07, z * 0.15), 0.03, "Cast iron", 0.045)
     s.rod("Bathtub pipe", tub, (-0.93, 0.0, 0.0), (-0.93, 0.74, 0.0), 0.014, "Chrome")
     s.rod("Bathtub spout", tub, (-0.93, 0.74, 0.0), (-0.78, 0.72, 0.0), 0.016, "Chrome")
     for tag, z in (("hot", -0.05), ("cold", 0.05)):
-        s.ball("Bathtub tap " + tag, tub, (-0.93, 0.76, z), 0.02, "Chrome")
+        s.rod("Bathtub tap " + tag, tub, (-0.93, 0.75, z), (-0.93, 0.79, z), 0.014, "Chrome", 0.02)
     s.rod("Bathtub bridge", tub, (-0.93, 0.76, -0.05), (-0.93, 0.76, 0.05), 0.009, "Chrome")
-    shelf = s.group("Bath shelf", room, (4.0, 1.28, N))
+    tiles = s.group("Bath splashback", room)
+    rng = random.Random(34)
+    s.span("Bath splashback panel", tiles, (2.85, 0.0, N - 0.05), (E + 0.05, 1.24, N + 0.012), "Mortar")
+    for i in range(14):
+        for j in range(8):
+            x, y = 2.86 + 0.155 * i, 0.155 * j
+            s.span("Bath tile %d.%d" % (i + 1, j + 1), tiles, (x + 0.0015, y + 0.0015, N + 0.005), (min(x + 0.1535, E + 0.04), y + 0.1535, N + 0.02),
+                   rng.choice(["Tile 1", "Tile 2", "Tile 3"]))
+    s.span("Bath splashback rail", tiles, (2.85, 1.24, N - 0.05), (E + 0.05, 1.265, N + 0.03), "Walnut")
+    shelf = s.group("Bath shelf", room, (4.0, 1.32, N))
     s.box("Bath shelf board", shelf, (0, 0, 0.075), (0.9, 0.024, 0.15), "Oak 3")
     for i, x in enumerate((-0.35, 0.35)):
         s.box("Bath shelf bracket %d" % (i + 1), shelf, (x, -0.06, 0.06), (0.024, 0.096, 0.10), "Oak 1")
@@ -849,7 +878,7 @@ def bathroom(s, house, m):
     basket = s.group("Laundry basket", room, (1.3, 0.0, N + 0.32))
     s.rod("Laundry basket body", basket, (0, 0, 0), (0, 0.55, 0), 0.19, "Pine 3", 0.23)
     s.rod("Laundry basket lid", basket, (0, 0.55, 0), (0, 0.575, 0), 0.24, "Pine 1")
-    s.ball("Laundry basket knob", basket, (0, 0.59, 0), 0.022, "Walnut")
+    s.rod("Laundry basket knob", basket, (0, 0.575, 0), (0, 0.605, 0), 0.014, "Walnut", 0.022)
     s.span("Bath mat", room, (3.55, 0.001, -2.36), (4.45, 0.012, -1.85), "Towel")
     picture(s, "Bathroom picture", room, (A1 + 0.001, 1.6, -2.6), 90, 0.36, 0.46, "Print")
 
@@ -883,8 +912,7 @@ def lamps(s, house):
     s.light("Reading spot", g, (-4.35, 2.35, 2.2), (-0.35, -1.0, -0.2), type="spot", intensity=350.0, color=[1.0, 0.78, 0.55],
             spot={"innerConeAngle": 0.25, "outerConeAngle": 0.6})
     s.rod("Reading spot housing", g, (-4.33, 2.37, 2.212), (-4.3, 2.46, 2.23), 0.04, "Black steel")
-    s.lights.append({"name": "Sun", "type": "directional", "color": [1.0, 0.74, 0.46], "intensity": 16000.0})
-    from small_scene import facing
+    s.lights.append({"name": "Sun", "type": "directional", "color": [1.0, 0.74, 0.46], "intensity": 13000.0})
     s.node("Sun", (8.0, 3.0, 8.0), facing(SUN), g, extensions={"KHR_lights_punctual": {"light": len(s.lights) - 1}})
 
 
@@ -896,7 +924,7 @@ def patch(n, mirror_at, plane, axis):
 
 
 def main():
-    s = LargeScene("Cabin", MATERIALS, sky=(620.0, 740.0, 930.0))
+    s = LargeScene("Cabin", MATERIALS, sky=(900.0, 1060.0, 1300.0))
     house = s.group("Cabin")
     log_walls(s, house)
     windows(s, house)
@@ -917,6 +945,9 @@ def main():
     s.camera("Dresser", (2.75, 1.40, 0.75), (0.95, 0.98, 1.50), 46.0)
     s.camera("Bathroom", (1.15, 1.6, -0.95), (4.0, 0.95, -2.55), 60.0)
     s.camera("From the stove", (-4.2, 1.6, -1.6), (-1.0, 0.95, 2.2), 62.0)
+    for camera, stops in zip(s.cameras, (0.7, 0.3, 0.0, 0.3, 0.7)):
+        if stops:
+            camera["extensions"] = {"ATRIUM_camera": {"exposure": stops}}
     s.write(__file__)
     lean = rotate(quat_mul(turn("y", 90.0), turn("x", -LEAN)), (0.0, 0.0, 1.0))
     print("sun from the bedroom's mirror on the west wall", patch((0, 0, 1), MIRROR, A1, 0), file=sys.stderr)
