@@ -236,11 +236,12 @@ def partitions(s, house):
         for k, y in enumerate((0.22, 1.0, height - 0.22)):
             s.box("%s batten %d" % (name, k + 1), door, (width / 2, y, 0.022), (width - 0.08, 0.10, 0.014), "Walnut")
         for tag, z in (("front", 0.05), ("back", -0.05)):
-            s.ball("%s knob %s" % (name, tag), door, (width - 0.06, 1.13, z), 0.026, "Brass")
+            s.rod("%s knob %s" % (name, tag), door, (width - 0.06, 1.13, z), (width - 0.06, 1.13, z * 1.5), 0.018, "Brass", 0.027)
             s.rod("%s spindle %s" % (name, tag), door, (width - 0.06, 1.13, 0.0), (width - 0.06, 1.13, z), 0.009, "Brass")
     door = s.group("Front door frame", house, ((a + b) / 2, 0.0, S), turn("y", 180.0))
     frame(s, "Front door frame", door, b - a, top, THICK, "Walnut", True, True, sill=False)
-    s.box("Front door threshold", door, (0, -0.004, -THICK / 2), (b - a - 0.06, 0.032, THICK), "Walnut")
+    for tag, z0, z1 in (("inside", -0.085, 0.0), ("below", -0.115, -0.085), ("outside", -THICK, -0.115)):
+        s.span("Front door threshold " + tag, door, (-(b - a) / 2 + 0.03, -0.02, z0), ((b - a) / 2 - 0.03, 0.004 if tag == "below" else 0.012, z1), "Walnut")
 
 
 def floors(s, house):
@@ -554,7 +555,8 @@ def kitchen(s, room, m):
     pipe = [(-0.2, 0.9, N + 0.06), (-0.2, 1.12, N + 0.06), (-0.2, 1.17, N + 0.11), (-0.2, 1.17, N + 0.22), (-0.2, 1.12, N + 0.25)]
     for i, (a, b) in enumerate(zip(pipe, pipe[1:])):
         s.rod("Kitchen tap %d" % (i + 1), g, a, b, 0.012, "Chrome")
-        s.ball("Kitchen tap joint %d" % (i + 1), g, b, 0.0125, "Chrome")
+        if i < 3:
+            s.ball("Kitchen tap joint %d" % (i + 1), g, b, 0.0125, "Chrome")
     for name, kind, x, z in (("Counter steel bowl", "steel bowl", 0.36, 0.3), ("Counter tumbler 1", "tumbler", -0.55, 0.40), ("Counter tumbler 2", "tumbler", -0.66, 0.32),
                              ("Counter bottle", "bottle Green glass", 0.62, 0.2), ("Counter flask", "flask Amber glass", 0.5, 0.42), ("Counter vase", "vase Blue glass", -0.9, 0.28)):
         s.node(name, (x, 0.9005, N + z), None, g, mesh=m[kind])
@@ -738,7 +740,7 @@ def bedroom(s, house, m):
     for tag, z, high in (("head", -1.0, 1.05), ("foot", 1.02, 0.62)):
         for side, x in (("left", -0.8), ("right", 0.8)):
             s.rod("Bed post %s %s" % (tag, side), bed, (x, 0.0, z), (x, high, z), 0.035, "Log 1")
-            s.ball("Bed knob %s %s" % (tag, side), bed, (x, high + 0.03, z), 0.045, "Log 1")
+            s.rod("Bed knob %s %s" % (tag, side), bed, (x, high, z), (x, high + 0.05, z), 0.035, "Log 1", 0.049)
         for k, y in enumerate((0.36, high - 0.08)):
             s.rod("Bed rail %s %d" % (tag, k + 1), bed, (-0.8, y, z), (0.8, y, z), 0.025, "Log 2")
         for k in range(9):
@@ -841,10 +843,11 @@ def bathroom(s, house, m):
     s.node("Wash bowl", (0, 0.8405, 0.26), None, basin, (1.6, 1.6, 1.6), mesh=s.mesh("Wash bowl", bowl("Porcelain", 0.115, 0.08)))
     for i, (a, b) in enumerate((((0, 0.84, 0.07), (0, 1.06, 0.07)), ((0, 1.06, 0.07), (0, 1.04, 0.19)))):
         s.rod("Wash tap %d" % (i + 1), basin, a, b, 0.012, "Chrome")
-        s.ball("Wash tap joint %d" % (i + 1), basin, b, 0.0125, "Chrome")
+        if i == 0:
+            s.ball("Wash tap joint", basin, b, 0.0125, "Chrome")
     s.node("Wash tumbler", (0.3, 0.8405, 0.18), None, basin, mesh=m["tumbler"])
     s.node("Soap dish", (-0.31, 0.8405, 0.2), None, basin, mesh=m["brass bowl"])
-    s.ball("Soap", basin, (-0.31, 0.868, 0.2), 0.03, "Wool cream", 0.6)
+    cushion(s, "Soap", basin, (-0.31, 0.868, 0.2), (0.075, 0.028, 0.05), 0.012, "Wool cream")
     mirror(s, "Bathroom mirror", basin, (0, 1.58, 0.0), None, 0.7, 0.56, "Walnut")
     s.rod("Bathroom tube", basin, (-0.3, 2.02, 0.06), (0.3, 2.02, 0.06), 0.018, "Tube")
     for tag, x in (("left", -0.32), ("right", 0.32)):
