@@ -2,7 +2,9 @@
 
 A unit shape is stored once per material, its triangles once in all. Metres, +Y up, standard library only.
 """
+import json
 import math
+import os
 import sys
 
 from small_scene import Part, Scene
@@ -166,3 +168,21 @@ class LargeScene(Scene):
 def upward_spot(direction):
     """Quaternion that turns -z into `direction`, which may be straight down."""
     return quat_mul(upward((0, 0, 0), direction), turn("x", 90.0))
+
+
+def write_edits(script, name, edits):
+    """Writes an edit script (atrium-cli edit --script) beside `script`, one edit or position a line."""
+    lines = []
+    for edit in edits:
+        text = json.dumps(edit)
+        if "positions" in edit:
+            places = ",\n    ".join(json.dumps([round(c, 4) for c in p]) for p in edit["positions"])
+            text = json.dumps({**edit, "positions": []}).replace("[]", "[\n    " + places + "]")
+        lines.append("  " + text)
+    with open(os.path.join(os.path.dirname(os.path.abspath(script)), name), "w", encoding="utf-8") as out:
+        out.write('{"edits": [\n' + ",\n".join(lines) + "\n]}\n")
+
+
+def along(a, b, count):
+    """Places from a to b, both included."""
+    return [add(a, mul(sub(b, a), k / (count - 1))) for k in range(count)]

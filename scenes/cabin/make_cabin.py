@@ -11,7 +11,7 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 from small_scene import Part, facing, glass, glowing, pbr  # noqa: E402
-from large_scene import LargeScene, add, mul, quat_mul, reflect, rotate, sub, turn, unit  # noqa: E402
+from large_scene import LargeScene, add, along, mul, quat_mul, reflect, rotate, sub, turn, unit, write_edits  # noqa: E402
 
 W, E, N, S, H = -5.0, 5.0, -3.2, 3.2, 2.6        # planes that the logs of the outer walls touch, and the ceiling
 A0, A1 = 0.8, 0.95                               # partition between the living room and the others
@@ -19,6 +19,7 @@ B0, B1 = -0.75, -0.6                             # partition between bathroom an
 LOG, COURSE, THICK = 0.125, 0.2, 0.25            # radius of a log, rise of a course, thickness of an outer wall
 SUN = unit((-0.69, -0.1405, -0.724))             # 8 degrees high, from the south-east
 MIRROR = (2.95, 1.45, B1 + 0.03)                 # of the bedroom
+CONTAINER = (1.27, 0.9155, 2.28)                 # middle of the container on the dresser, where its drag starts
 LEAN = 5.0                                       # degrees by which the mirror of the living room leans back
 FACING = {"N": 0.0, "S": 180.0, "E": -90.0, "W": 90.0}
 
@@ -725,11 +726,8 @@ def dresser(s, room, m):
     s.rod("Candlestick stem", c, (1.06, 0.015, 0.92), (1.06, 0.15, 0.92), 0.011, "Brass")
     s.rod("Candlestick candle", c, (1.06, 0.15, 0.92), (1.06, 0.28, 0.92), 0.012, "Wax")
     # The container: what the drag moves. Its origin is the middle of its body.
-    box = s.rod("Container", g, (1.27, top + 0.0005, CONTAINER_Z), (1.27, top + 0.1905, CONTAINER_Z), 0.075, "Container enamel")
-    return box
-
-
-CONTAINER_Z = 2.28
+    x, y, z = CONTAINER
+    s.rod("Container", g, (x, y - 0.095, z), (x, y + 0.095, z), 0.075, "Container enamel")
 
 
 def bedroom(s, house, m):
@@ -919,6 +917,28 @@ def lamps(s, house):
     s.node("Sun", (8.0, 3.0, 8.0), facing(SUN), g, extensions={"KHR_lights_punctual": {"light": len(s.lights) - 1}})
 
 
+def edits():
+    x, y, z = CONTAINER
+    write_edits(__file__, "drag.json", [{"kind": "drag", "node": "Container", "positions": along((x, y, z - 0.05), (x, y, 0.73), 31),
+                                         "interval_ms": 16, "settle": True}])
+    write_edits(__file__, "edits.json", [
+        {"kind": "move", "node": "Mirror group", "rotation": [round(c, 7) for c in turn("y", 6.0)]},
+        {"kind": "undo"},
+        {"kind": "redo"},
+        {"kind": "material", "material": "Container enamel", "baseColor": [0.93, 0.6, 0.46], "metallic": 1.0, "roughness": 0.1},
+        {"kind": "light", "node": "Kitchen spot 1", "enabled": False},
+        {"kind": "add", "shape": "sphere", "name": "Ball", "translation": [-0.72, 0.811, -0.62], "size": [0.12], "material": "Glass"},
+        {"kind": "delete", "node": "Chair 2"},
+        {"kind": "undo"},
+        {"kind": "move", "node": "Table copper bowl", "translation": [0.36, 0.7505, 0.3]},
+        {"kind": "delete", "node": "Dresser flask"},
+        {"kind": "material", "material": "Painted wood 2", "baseColor": [0.35, 0.45, 0.5]},
+        {"kind": "light", "node": "Sun", "intensity": 9000.0, "color": [1.0, 0.66, 0.36]},
+        {"kind": "undo"},
+        {"kind": "undo"},
+        {"kind": "redo"}])
+
+
 def patch(n, mirror_at, plane, axis):
     """Where the middle of a mirror throws the sun on a plane, and along what."""
     d = reflect(SUN, n)
@@ -952,6 +972,7 @@ def main():
         if stops:
             camera["extensions"] = {"ATRIUM_camera": {"exposure": stops}}
     s.write(__file__)
+    edits()
     lean = rotate(quat_mul(turn("y", 90.0), turn("x", -LEAN)), (0.0, 0.0, 1.0))
     print("sun from the bedroom's mirror on the west wall", patch((0, 0, 1), MIRROR, A1, 0), file=sys.stderr)
     print("sun from the leaning mirror on the north wall", patch(lean, (W + 0.19, 0.94, -0.05), N, 2), file=sys.stderr)

@@ -11,10 +11,11 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 from small_scene import Part, facing, glass, pbr  # noqa: E402
-from large_scene import LargeScene, add, cross, dot, mul, reflect, sub, turn, unit  # noqa: E402
+from large_scene import LargeScene, add, along, cross, dot, mul, reflect, sub, turn, unit, write_edits  # noqa: E402
 
 WEST, EAST = -7.6, 9.0          # fronts of the two houses
 CURB, KERB = 4.6, 0.14          # half the width of the road, rise of the pavement
+CAR = (-2.6, 0.0, -14.0)        # where its drive starts
 LONG = 17.0                     # half the length of the houses
 FAR = 26.0                      # where the houses at the ends of the street stand
 SUN = unit((math.cos(math.radians(20)) * math.cos(math.radians(15)), -math.sin(math.radians(20)),
@@ -365,7 +366,7 @@ def furniture(s, root):
 
 def car(s, root):
     """4.3 m long, heads along +z; its origin lies on the road under its middle."""
-    c = s.group("Car", root, (-2.6, 0.0, -14.0))
+    c = s.group("Car", root, CAR)
     body = Part("Car paint")
     # Sections across its length: z, half width, bottom, top; each a ring of a rounded rectangle.
     stations = [(-2.15, 0.62, 0.42, 0.78), (-2.12, 0.72, 0.34, 0.86), (-2.0, 0.80, 0.28, 0.92), (-1.6, 0.86, 0.24, 0.95), (-0.9, 0.88, 0.23, 0.94),
@@ -406,6 +407,28 @@ def car(s, root):
     return c
 
 
+def edits():
+    x, y, z = CAR
+    write_edits(__file__, "drag.json", [{"kind": "drag", "node": "Car", "positions": along((x, y, z + 0.9), (x, y, 14.0), 31),
+                                         "interval_ms": 16, "settle": True}])
+    write_edits(__file__, "edits.json", [
+        {"kind": "move", "node": "Car", "translation": [x, y, 0.0]},
+        {"kind": "undo"},
+        {"kind": "redo"},
+        {"kind": "material", "material": "Car paint", "baseColor": [0.06, 0.12, 0.3]},
+        {"kind": "delete", "node": "Panel 20"},
+        {"kind": "undo"},
+        {"kind": "add", "shape": "box", "name": "Crate", "translation": [-5.9, 0.5405, 2.6], "size": [0.8, 0.8, 0.8], "material": "Bench wood"},
+        {"kind": "move", "node": "Crate", "translation": [-5.9, 0.5405, 7.0]},
+        {"kind": "material", "material": "Panel", "roughness": 0.2},
+        {"kind": "undo"},
+        {"kind": "light", "node": "Sun", "intensity": 50000.0, "color": [1.0, 0.8, 0.6]},
+        {"kind": "delete", "node": "Bench 1"},
+        {"kind": "undo"},
+        {"kind": "undo"},
+        {"kind": "redo"}])
+
+
 def main():
     s = LargeScene("Street", MATERIALS, sky=(3200.0, 4000.0, 5400.0))
     root = s.group("Street")
@@ -422,6 +445,7 @@ def main():
     s.camera("Metal front", (-6.4, 1.9, 9.6), (9.0, 6.0, -5.5), 62.0)
     s.camera("From a window", (8.6, 9.6, 9.0), (-7.0, 0.8, -3.0), 55.0)
     s.write(__file__)
+    edits()
     d = reflect(SUN, (-1.0, 0.0, 0.0))
     t = (WEST - EAST) / d[0]
     print("from height y, z of the metal to y - %.2f, z + %.2f of the brick" % (-t * d[1], t * d[2]), file=sys.stderr)
