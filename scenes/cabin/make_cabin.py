@@ -19,7 +19,7 @@ B0, B1 = -0.75, -0.6                             # partition between bathroom an
 LOG, COURSE, THICK = 0.125, 0.2, 0.25            # radius of a log, rise of a course, thickness of an outer wall
 SUN = unit((-0.69, -0.1405, -0.724))             # 8 degrees high, from the south-east
 MIRROR = (2.95, 1.45, B1 + 0.03)                 # of the bedroom
-CONTAINER = (1.27, 0.9155, 2.28)                 # middle of the container on the dresser, where its drag starts
+CONTAINER = (1.27, 0.9605, 2.28)                 # middle of the container on the dresser, where its drag starts
 LEAN = 5.0                                       # degrees by which the mirror of the living room leans back
 FACING = {"N": 0.0, "S": 180.0, "E": -90.0, "W": 90.0}
 
@@ -101,7 +101,7 @@ def log_walls(s, house):
         low, high = (W - 0.42, E + 0.42) if along_x else (N - 0.07, S + 0.07)
         gaps = {"E": [(B0, B1)], "N": [(A0, A1)], "S": [(A0, A1)], "W": []}[side]  # where partitions stand
         holes = [(m - w / 2, m + w / 2, y0, y1) for _, at, m, w, y0, y1, _ in WINDOWS if at == side]
-        holes += [(FRONT_DOOR[0], FRONT_DOOR[1], 0.0, FRONT_DOOR[2])] if side == "S" else []
+        holes += [(FRONT_DOOR[0], FRONT_DOOR[1], -0.01, FRONT_DOOR[2])] if side == "S" else []
         wall = s.group("Log wall %s" % {"E": "east", "W": "west", "N": "north", "S": "south"}[side], group)
         for k in range(14 if along_x else 13):
             y = COURSE * k + (0.0 if along_x else COURSE / 2)
@@ -228,7 +228,7 @@ def partitions(s, house):
     a, b, top = FRONT_DOOR
     for name, width, height, offset, angle in (("Bedroom door", 0.71, 1.985, (A1 + 0.03, 0.015, 0.31), -6.0),
                                                ("Bathroom door", 0.68, 1.985, (A1 + 0.03, 0.015, -2.0), 6.0),
-                                               ("Front door", b - a - 0.05, top - 0.01, (b - 0.025, 0.005, S + 0.10), 180.0)):
+                                               ("Front door", b - a - 0.05, top - 0.01, (b - 0.025, -0.005, S + 0.10), 180.0)):
         door = s.group(name, house, offset, turn("y", angle))
         count = 6
         for k in range(count):
@@ -240,7 +240,10 @@ def partitions(s, house):
             s.rod("%s knob %s" % (name, tag), door, (width - 0.06, 1.13, z), (width - 0.06, 1.13, z * 1.5), 0.018, "Brass", 0.027)
             s.rod("%s spindle %s" % (name, tag), door, (width - 0.06, 1.13, 0.0), (width - 0.06, 1.13, z), 0.009, "Brass")
     door = s.group("Front door frame", house, ((a + b) / 2, 0.0, S), turn("y", 180.0))
-    frame(s, "Front door frame", door, b - a, top, THICK, "Walnut", True, True, sill=False)
+    # Two frames, before and behind the leaf: no surface runs from the sun into the room.
+    frame(s, "Front door frame", door, b - a, top, 0.075, "Walnut", True, False, sill=False)
+    outer = s.group("Front door outer frame", door, (0.0, 0.0, -0.125))
+    frame(s, "Front door outer frame", outer, b - a, top, THICK - 0.125, "Walnut", False, True, sill=False)
     for tag, z0, z1 in (("inside", -0.085, 0.0), ("below", -0.115, -0.085), ("outside", -THICK, -0.115)):
         s.span("Front door threshold " + tag, door, (-(b - a) / 2 + 0.03, -0.02, z0), ((b - a) / 2 - 0.03, 0.004 if tag == "below" else 0.012, z1), "Walnut")
 
@@ -727,7 +730,7 @@ def dresser(s, room, m):
     s.rod("Candlestick candle", c, (1.06, 0.15, 0.92), (1.06, 0.28, 0.92), 0.012, "Wax")
     # The container: what the drag moves. Its origin is the middle of its body.
     x, y, z = CONTAINER
-    s.rod("Container", g, (x, y - 0.095, z), (x, y + 0.095, z), 0.075, "Container enamel")
+    s.rod("Container", g, (x, y - 0.14, z), (x, y + 0.14, z), 0.08, "Container enamel")
 
 
 def bedroom(s, house, m):
