@@ -3,6 +3,7 @@
 
 Metres, +Y up. x runs from west to east, z from north to south, the floor is y = 0. Living room x -5 to 0.8, z -3.2 to 3.2;
 bedroom x 0.95 to 5, z -0.6 to 3.2; bathroom x 0.95 to 5, z -3.2 to -0.75; ceilings at 2.6.
+The script is long because it lists, room by room, all that a furnished house holds.
 """
 import math
 import os
