@@ -92,9 +92,10 @@ class Scene:
         """Writes <script's folder>/<name of the folder>.glb."""
         folder = os.path.dirname(os.path.abspath(script))
         name = os.path.basename(script)[len("make_"):-len(".py")].replace("_", "-")
+        held = {child for node in self.nodes for child in node.get("children", ())}
         document = {"asset": {"version": "2.0", "generator": "scenes/%s/%s" % (name, os.path.basename(script)),
                               "copyright": "The Atrium authors, Apache-2.0"},
-                    "scene": 0, "scenes": [{"name": self.name, "nodes": list(range(len(self.nodes)))}],
+                    "scene": 0, "scenes": [{"name": self.name, "nodes": [i for i in range(len(self.nodes)) if i not in held]}],
                     "nodes": self.nodes, "meshes": self.meshes, "cameras": self.cameras,
                     "materials": [{"name": key, **body} for key, body in self.materials],
                     "accessors": self.accessors, "bufferViews": self.views, "buffers": [{"byteLength": len(self.data)}]}
@@ -105,7 +106,7 @@ class Scene:
             root["KHR_lights_punctual"] = {"lights": self.lights}
         if root:
             document["extensions"] = root
-        used = set(root) | {e for m in self.meshes for e in m.get("extensions", {})}
+        used = set(root) | {e for m in self.meshes + self.cameras for e in m.get("extensions", {})}
         used |= {e for _, body in self.materials for e in body.get("extensions", {})}
         document["extensionsUsed"] = sorted(used)
         text = json.dumps(document, separators=(",", ":")).encode()

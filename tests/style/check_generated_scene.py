@@ -16,6 +16,8 @@ SCENES = [
     ("glass-ball", "make_glass_ball.py", ["glass-ball.glb"]),
     ("sun-mirror", "make_sun_mirror.py", ["sun-mirror.glb"]),
     ("lamp", "make_lamp.py", ["lamp.glb"]),
+    ("cabin", "make_cabin.py", ["cabin.glb", "drag.json", "edits.json"]),
+    ("street", "make_street.py", ["street.glb", "drag.json", "edits.json"]),
 ]
 
 
@@ -39,7 +41,8 @@ def main():
     source = os.path.join(sys.argv[1], "scenes")
     stale = []
     with tempfile.TemporaryDirectory() as folder:
-        shutil.copy(os.path.join(source, "small_scene.py"), folder)
+        for shared in ("small_scene.py", "large_scene.py"):
+            shutil.copy(os.path.join(source, shared), folder)
         for scene, script, _ in SCENES:
             os.mkdir(os.path.join(folder, scene))
             shutil.copy(os.path.join(source, scene, script), os.path.join(folder, scene))
