@@ -102,6 +102,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         return give_up("nothing is lit");
     }
     Impl::Live& live = *s.live;
+    const std::uint64_t rays_before = s.rays->rays_traced();
     if (!same_lamps(placed_lights(scene, s.rays->origin()), s.punctual->lights()) ||
         scene.environment.sky_radiance != s.sky_radiance) {
         return give_up("lamps changed");
@@ -241,6 +242,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     solution->surfaces = live.layers.surfaces;
     solution->caustic_records = s.caustics.records;
     solution->statistics.converged = false;
+    solution->statistics.rays = s.rays->rays_traced() - rays_before;
     solution->statistics.time.solve = seconds_since_start();
     solution->statistics.time.total = solution->statistics.time.solve;
     return std::shared_ptr<const Solution>(solution);

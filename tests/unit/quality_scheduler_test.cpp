@@ -234,5 +234,99 @@ TEST_F(Scheduler, ASolverThatStopsByItselfIsNotStartedOverAndOver) {
     EXPECT_EQ(wants(), "start");
 }
 
+// ---- with an engine that can update in a hurry
+
+struct HurriedScheduler : Scheduler {
+    void SetUp() override {
+        Scheduler::SetUp();
+        started();
+        s.on_finished(Outcome::Final, true);
+        EXPECT_EQ(wants(), "-");
+    }
+    /// The next job starts; says which kind it is.
+    std::string next() {
+        const auto kind = s.kind();
+        s.on_started(kind);
+        return kind == QualityScheduler::Kind::Hurried ? "hurried" : "full";
+    }
+};
+
+TEST_F(HurriedScheduler, LightFollowsAGestureAndSettlesOnRelease) {
+    for (int i = 0; i < 50; ++i) {
+        EXPECT_EQ(edit(true), "start");
+        EXPECT_EQ(next(), "hurried");
+        EXPECT_TRUE(s.moving());
+        EXPECT_EQ(wait(30), "-");
+        EXPECT_EQ(finished(Outcome::Hurried), "-") << "the hand goes on";
+        EXPECT_TRUE(s.unsettled());
+    }
+    EXPECT_EQ(s.state(), State::Solving);
+    s.on_gesture_end();
+    EXPECT_FALSE(s.moving());
+    EXPECT_EQ(wants(), "start");
+    EXPECT_EQ(next(), "full");
+    EXPECT_TRUE(s.unsettled()) << "until it is done";
+    s.on_finished(Outcome::Final, true);
+    EXPECT_EQ(wants(), "-");
+    EXPECT_FALSE(s.unsettled());
+    EXPECT_EQ(s.state(), State::Idle);
+}
+
+TEST_F(HurriedScheduler, EditsWhileAnUpdateRunsDoNotStopIt) {
+    edit(true);
+    next();
+    EXPECT_EQ(edit(true), "-");
+    EXPECT_EQ(edit(true), "-");
+    EXPECT_EQ(finished(Outcome::Hurried), "start");
+    EXPECT_EQ(next(), "hurried");
+}
+
+TEST_F(HurriedScheduler, AHandThatRestsGetsFullQualityAndMayGoOn) {
+    edit(true);
+    next();
+    finished(Outcome::Hurried);
+    EXPECT_EQ(s.start_time(), now() + QualityScheduler::kRest);
+    EXPECT_EQ(wait(199), "-");
+    EXPECT_EQ(wait(1), "start");
+    EXPECT_EQ(next(), "full");
+    EXPECT_EQ(wait(1000), "-");
+    EXPECT_EQ(edit(true), "stop") << "at once: the hand is not to wait";
+    EXPECT_EQ(finished(Outcome::Stopped), "start");
+    EXPECT_EQ(next(), "hurried");
+    finished(Outcome::Hurried);
+    s.on_gesture_end();
+    EXPECT_EQ(wants(), "start");
+    EXPECT_EQ(next(), "full");
+}
+
+TEST_F(HurriedScheduler, WhatCannotBeDoneInAHurryIsSolvedAsBefore) {
+    edit(true);
+    EXPECT_EQ(next(), "hurried");
+    EXPECT_EQ(finished(Outcome::Unfit), "start");
+    EXPECT_EQ(next(), "full");
+    EXPECT_EQ(edit(true), "-") << "there has to be some light while dragging";
+    EXPECT_EQ(wait(200), "stop");
+    EXPECT_EQ(finished(Outcome::Stopped), "start");
+    EXPECT_EQ(next(), "full");
+}
+
+TEST_F(HurriedScheduler, CancelAndAnotherDocumentForgetIt) {
+    edit(true);
+    next();
+    s.on_cancel();
+    EXPECT_EQ(wants(), "stop");
+    EXPECT_EQ(finished(Outcome::Stopped), "-");
+    s.on_gesture_end();
+    EXPECT_EQ(wants(), "-") << "cancelled";
+    s.on_resume();
+    EXPECT_EQ(wants(), "start");
+    EXPECT_EQ(next(), "full");
+    s.on_load(false, false);
+    finished(Outcome::Stopped);
+    EXPECT_EQ(wants(), "start");
+    edit(true);
+    EXPECT_EQ(next(), "full") << "nothing to start from yet";
+}
+
 } // namespace
 } // namespace atrium

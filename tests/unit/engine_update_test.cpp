@@ -1,0 +1,154 @@
+// GiEngine::update(): light that follows what moves, and when it says that it cannot.
+#include "engine/base/rng.h"
+#include "tests/support/light_cases.h"
+#include "tests/support/rooms.h"
+
+#include <gtest/gtest.h>
+
+namespace atrium {
+namespace {
+
+using namespace test;
+
+/// A room with a lamp under its ceiling, a point light and a box that stands on the floor.
+struct Room {
+    Scene scene;
+    NodeId box, lamp, point;
+    GiEngine engine;
+    SolveOptions options;
+
+    explicit Room(float rho = 0.7F) {
+        add_room(scene, 4, 3, 4, add_material(scene, rho));
+        box = add_shape(scene, "box", Box{vec3(0.4F, 0.8F, 0.4F)}, {1.2, 0.41, 1.2}, add_material(scene, 0.7F * rho));
+        lamp = add_rectangle(scene, "panel", {2, 2.9, 2}, {0, -1, 0}, {1, 0, 0}, 0.4F, 0.4F,
+                             add_material(scene, 0.5F, 20000.0F));
+        point = add_point_light(scene, {0.6, 2.4, 0.6}, 1500.0);
+        options.quality = SolverSettings::Quality::Draft;
+        options.keep_for_updates = true;
+    }
+    void move(const dvec3& by) { scene.nodes.find(box)->transform.translation += by; }
+    std::shared_ptr<const Solution> solve() {
+        auto r = engine.solve(scene, options, {});
+        return r ? *r : nullptr;
+    }
+    [[nodiscard]] std::vector<double> floor_light(const Solution& solution) const {
+        std::vector<SensorPlace> places;
+        for (std::uint32_t i = 0; i < 2000; ++i) {
+            const vec2 u = sobol_owen2(i, 0, 5U);
+            places.push_back({{0.1 + 3.8 * u.x, 0.0, 0.1 + 3.8 * u.y}, {0, 1, 0}});
+        }
+        std::vector<double> out;
+        for (const SensorReading& r : read_surfaces(scene, solution, places)) {
+            out.push_back(r.on_surface ? luminance(r.irradiance) : 0.0);
+        }
+        return out;
+    }
+};
+
+double relative_rms(const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0.0, mean = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        sum += (a[i] - b[i]) * (a[i] - b[i]);
+        mean += b[i];
+    }
+    return std::sqrt(sum / double(a.size())) / (mean / double(a.size()));
+}
+
+// `most`: of the error of light that does not follow, what an update may leave.
+void follow_the_hand(float rho, double most) {
+    Room room(rho);
+    const auto before = room.solve();
+    ASSERT_TRUE(before);
+    EXPECT_TRUE(before->updatable);
+    EXPECT_TRUE(room.engine.can_update());
+    for (int step = 0; step < 3; ++step) {
+        room.move({0.3, 0.0, 0.2});
+        auto updated = room.engine.update(room.scene, room.options, {});
+        ASSERT_TRUE(updated) << updated.error().message();
+        EXPECT_FALSE((*updated)->final);
+        EXPECT_TRUE((*updated)->statistics.update.degraded);
+        Room fresh(rho);
+        fresh.scene = room.scene;
+        const auto truth = fresh.solve();
+        const std::vector<double> expected = fresh.floor_light(*truth);
+        const double error = relative_rms(room.floor_light(**updated), expected);
+        const double stale = relative_rms(room.floor_light(*before), expected);
+        std::printf("step %d: rms %.1f %% of the mean, light that does not follow %.1f %%; rays %.1f %% of a solution's\n",
+                    step, 100.0 * error, 100.0 * stale,
+                    100.0 * double((*updated)->statistics.rays) / double(truth->statistics.rays));
+        EXPECT_LT(error, most * stale);
+        EXPECT_LT((*updated)->statistics.rays, truth->statistics.rays / 8);
+        // What light did not change is shared with the picture before.
+        EXPECT_EQ((*updated)->surfaces.size(), before->surfaces.size());
+    }
+    // Let go: the very light of a solution that knows of no past.
+    const auto settled = room.solve();
+    Room fresh(rho);
+    fresh.scene = room.scene;
+    const auto truth = fresh.solve();
+    EXPECT_EQ(room.floor_light(*settled), fresh.floor_light(*truth));
+    EXPECT_FALSE(settled->statistics.update.degraded);
+}
+
+// Nearly black walls: all light is direct, and that is as good as new but for fewer rays.
+TEST(EngineUpdate, DirectLightFollowsTheHand) { follow_the_hand(0.02F, 0.1); }
+// White ones: what they reflect follows when the hand lets go.
+TEST(EngineUpdate, LightInAWhiteRoomFollowsTheHand) { follow_the_hand(0.7F, 0.6); }
+
+TEST(EngineUpdate, SaysWhenOnlyASolutionHelps) {
+    const auto refuses = [](const std::function<void(Room&)>& edit) {
+        Room room;
+        EXPECT_TRUE(room.solve());
+        edit(room);
+        EXPECT_FALSE(room.engine.update(room.scene, room.options, {}));
+        EXPECT_FALSE(room.engine.can_update()) << "it cannot tell what it missed";
+        EXPECT_TRUE(room.solve());
+        EXPECT_TRUE(room.engine.can_update());
+    };
+    refuses([](Room& r) { r.scene.nodes.find(r.point)->transform.translation.x += 0.1; });
+    refuses([](Room& r) { r.scene.lights.find(r.scene.nodes.find(r.point)->light)->intensity *= 2.0F; });
+    refuses([](Room& r) { r.scene.nodes.find(r.lamp)->transform.translation.x += 0.1; });
+    refuses([](Room& r) { r.scene.nodes.find(r.box)->transform.scale = dvec3(2.0); });
+    refuses([](Room& r) { add_shape(r.scene, "ball", Sphere{0.2F}, {3, 1, 3}, add_material(r.scene, 0.5F)); });
+    refuses([](Room& r) { r.scene.environment.sky_radiance = Rgb(100.0F); });
+}
+
+TEST(EngineUpdate, NeedsACompleteSolutionThatWasKept) {
+    Room room;
+    EXPECT_FALSE(room.engine.update(room.scene, room.options, {}));
+    room.options.keep_for_updates = false;
+    EXPECT_TRUE(room.solve());
+    EXPECT_FALSE(room.engine.can_update()) << "nobody asked for it: nothing is kept";
+}
+
+TEST(EngineUpdate, AStoppedSolveLeavesTheLastCompleteLight) {
+    Room room;
+    ASSERT_TRUE(room.solve());
+    room.move({0.3, 0.0, 0.0});
+    RunContext stopped;
+    stopped.stop.request_stop();
+    EXPECT_FALSE(room.engine.solve(room.scene, room.options, stopped));
+    EXPECT_TRUE(room.engine.can_update());
+    EXPECT_TRUE(room.engine.update(room.scene, room.options, {}));
+}
+
+TEST(EngineUpdate, AStoppedUpdateIsDoneByTheNext) {
+    Room room;
+    ASSERT_TRUE(room.solve());
+    room.move({0.5, 0.0, 0.3});
+    RunContext stopped;
+    stopped.stop.request_stop();
+    EXPECT_FALSE(room.engine.update(room.scene, room.options, stopped));
+    EXPECT_TRUE(room.engine.can_update());
+    const auto late = room.engine.update(room.scene, room.options, {});
+    ASSERT_TRUE(late);
+    Room other;
+    ASSERT_TRUE(other.solve());
+    other.scene = room.scene;
+    const auto at_once = other.engine.update(other.scene, other.options, {});
+    ASSERT_TRUE(at_once);
+    EXPECT_LT(relative_rms(room.floor_light(**late), other.floor_light(**at_once)), 1e-6);
+}
+
+} // namespace
+} // namespace atrium
