@@ -142,6 +142,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     s.caustic_settings = quality.caustics;
     s.sky_radiance = scene.environment.sky_radiance;
     std::unique_ptr<LiveDirectMaps> live_maps;
+    std::unique_ptr<LeafExchange> kept_exchange;
 
     timer.next("hierarchy");
     context.progress("hierarchy", 0.03);
@@ -280,7 +281,8 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         for (std::size_t i = 0; i < leaves.size(); ++i) { // the sky in mirrors and lenses
             s.hierarchy.elements[leaves[i]].caustic += kPi * scene.environment.sky_radiance * around.sky[i];
         }
-        const LeafExchange exchange(s.hierarchy, leaves, around);
+        auto solved_exchange = std::make_unique<LeafExchange>(s.hierarchy, leaves, around);
+        const LeafExchange& exchange = *solved_exchange;
         const SolveReport report =
             solve_radiosity(s.hierarchy, exchange, quality.solver_tolerance, quality.max_iterations, context);
         statistics.iterations += report.iterations;
@@ -296,6 +298,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         leaf_error = exchange.error_estimate(s.hierarchy, report) * s.reflected_share();
         find_floor();
         s.solved = true;
+        kept_exchange = options.keep_for_updates ? std::move(solved_exchange) : nullptr;
     };
     const auto refine_links = [&](float coarser, double at) {
         timer.next("links");
@@ -377,6 +380,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     if (options.keep_for_updates) {
         s.live = std::make_unique<Impl::Live>();
         s.live->maps = std::move(live_maps);
+        s.live->exchange = std::move(kept_exchange);
         s.live->layers = set;
         for (const RaySurface& surface : s.rays->surfaces()) {
             s.live->placement.push_back(surface.to_engine);

@@ -65,6 +65,7 @@ public:
 
 private:
     struct Impl;
+    static void reflect_change(Impl& impl, const RunContext& context);
     std::unique_ptr<Impl> impl_;
 };
 

@@ -18,6 +18,7 @@
 #include "engine/raycast/scene_charts.h"
 #include "engine/solver/gi_engine.h"
 #include "engine/solver/quality.h"
+#include "engine/solver/reflected_change.h"
 
 #include <algorithm>
 
@@ -48,8 +49,11 @@ struct GiEngine::Impl {
         LayerSet layers;                      ///< as shown, without `complete`
         std::vector<dmat4> placement;         ///< per surface
         std::shared_ptr<const Solution> shown;
-        LightChange owed;                   ///< what a stopped update left undone
-        std::vector<std::uint8_t> new_maps; ///< per surface: its layer does not show its light maps yet
+        std::unique_ptr<LeafExchange> exchange;     ///< which leaves light which
+        std::unique_ptr<ReflectedChange> reflected; ///< null until something moves
+        std::vector<bool> away;                     ///< per surface: moved since the complete solution
+        LightChange owed;                           ///< what a stopped update left undone
+        std::vector<std::uint8_t> new_maps;         ///< per surface: its layer does not show its light maps yet
     };
     std::unique_ptr<Live> live;
     CausticSettings caustic_settings;

@@ -83,6 +83,28 @@ private:
 
 } // namespace
 
+// What surfaces whose direct light changed send on now, between leaves that see each other as they did before the drag.
+void GiEngine::reflect_change(Impl& s, const RunContext& context) {
+    Impl::Live& live = *s.live;
+    if (!live.reflected) {
+        live.reflected = std::make_unique<ReflectedChange>(s.hierarchy, *s.rays, live.layers);
+    }
+    const std::vector<std::uint32_t>& leaves = live.exchange->leaves();
+    parallel_chunks(leaves.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
+            Element& e = s.hierarchy.elements[leaves[i]];
+            // What moved is not where its leaves are.
+            if (e.kind == Element::Kind::Patch && live.new_maps[e.surface] != 0 && !live.away[e.surface]) {
+                double spread = 0.0;
+                (void)s.light_from_map(e, spread);
+            }
+        }
+    });
+    constexpr double kTolerance = 0.01;
+    constexpr int kMostSweeps = 8;
+    solve_radiosity(s.hierarchy, *live.exchange, kTolerance, kMostSweeps, context);
+}
+
 bool GiEngine::can_update() const { return impl_->live != nullptr; }
 
 Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, const SolveOptions& options,
@@ -135,6 +157,8 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
             }
         }
         change.moved[m.surface] = 1;
+        live.away.resize(s.rays->surfaces().size(), false);
+        live.away[m.surface] = true;
         mirror_moved = mirror_moved || is_specular(material);
     }
     if (mirror_moved && s.mirrors) {
@@ -149,6 +173,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     context.progress("direct", 0.1);
     const InAHurry fewer_rays(s.field.direct);
     live.new_maps.resize(s.rays->surfaces().size(), 0);
+    live.away.resize(s.rays->surfaces().size(), false);
     RepairReport repaired;
     repaired.complete = true;
     if (live.maps) {
@@ -159,6 +184,10 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     }
     if (!repaired.complete) {
         return fail("", "", "stopped before the light had followed", "The next update goes on");
+    }
+    if (live.exchange) {
+        context.progress("gather", 0.5);
+        reflect_change(s, context);
     }
     ParticleUpdate particles;
     if (s.particles) {
@@ -231,6 +260,9 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     }
     if (context.should_stop()) {
         return fail("", "", "stopped before the light had followed", "The next update goes on");
+    }
+    if (live.reflected) {
+        live.reflected->add_to(s.hierarchy, live.layers.surfaces);
     }
     if (s.particles) {
         attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics);

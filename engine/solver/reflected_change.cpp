@@ -1,0 +1,122 @@
+#include "engine/solver/reflected_change.h"
+
+#include "engine/base/parallel.h"
+
+#include <algorithm>
+
+namespace atrium {
+
+ReflectedChange::ReflectedChange(const Hierarchy& h, const RayScene& rays, const LayerSet& layers) {
+    constexpr float kClear = 1e-3F;        // metres: rays down to the leaf start this far above the surface
+    constexpr float kTraceOfMean = 0.002F; // of the mean irradiance
+    before_.reserve(h.elements.size());
+    for (const Element& e : h.elements) {
+        before_.push_back(e.irradiance);
+    }
+    trace_ = h.empty() ? 0.0F : kTraceOfMean * luminance(h.elements.front().irradiance);
+    surfaces_.resize(layers.surfaces.size());
+    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+        const SurfaceLayer& layer = *layers.surfaces[i];
+        const std::uint32_t surface = layers.places[i].surface;
+        const dmat4& to_engine = rays.surfaces()[surface].to_engine;
+        const DisplayMesh& mesh = *layer.mesh;
+        const std::size_t triangles = mesh.indices.size() / 3;
+        const auto find = [&](Side& side, bool back) {
+            side.leaf.assign(triangles, Element::kNone);
+            parallel_chunks(triangles, 256, [&](std::size_t begin, std::size_t end, std::size_t) {
+                for (std::size_t t = begin; t < end; ++t) {
+                    vec3 p[3];
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        const dvec3 local(mesh.positions[mesh.indices[3 * t + k]]);
+                        p[k] = vec3(dvec3(to_engine * dvec4(local, 1.0)));
+                    }
+                    vec3 n = glm::cross(p[1] - p[0], p[2] - p[0]);
+                    const float length = glm::length(n);
+                    if (!(length > 0.0F)) {
+                        continue;
+                    }
+                    n *= (back != rays.surfaces()[surface].mirrored ? -1.0F : 1.0F) / length;
+                    const vec3 middle = (p[0] + p[1] + p[2]) / 3.0F;
+                    const Hit hit = rays.nearest({middle + n * kClear, -n, 2.0F * kClear});
+                    if (hit && hit.surface == surface && hit.front != back) {
+                        side.leaf[t] = h.leaf_at(hit.surface, hit.triangle, back, hit.barycentric);
+                    }
+                }
+            });
+        };
+        surfaces_[i].front.base = layer.irradiance_front;
+        find(surfaces_[i].front, false);
+        if (layer.has_back()) {
+            surfaces_[i].back.base = layer.irradiance_back;
+            find(surfaces_[i].back, true);
+        }
+    }
+}
+
+// Mean change of the triangles around each vertex, by area. False where it is only a trace.
+bool ReflectedChange::changed(const Hierarchy& h, const std::vector<Rgb>& before, const DisplayMesh& mesh, const Side& side,
+                              float trace, std::vector<Rgb>& out) {
+    bool any = false;
+    for (const std::uint32_t leaf : side.leaf) {
+        any = any || (leaf != Element::kNone && luminance(glm::abs(h.elements[leaf].irradiance - before[leaf])) > trace);
+    }
+    if (!any) {
+        return false;
+    }
+    std::vector<Rgb> sum(side.base.size(), Rgb(0.0F));
+    std::vector<float> area(side.base.size(), 0.0F);
+    for (std::size_t t = 0; t < side.leaf.size(); ++t) {
+        if (side.leaf[t] == Element::kNone) {
+            continue;
+        }
+        const Rgb change = h.elements[side.leaf[t]].irradiance - before[side.leaf[t]];
+        const std::uint32_t* v = &mesh.indices[3 * t];
+        const float own = glm::length(
+            glm::cross(mesh.positions[v[1]] - mesh.positions[v[0]], mesh.positions[v[2]] - mesh.positions[v[0]]));
+        for (int k = 0; k < 3; ++k) {
+            sum[v[k]] += change * own;
+            area[v[k]] += own;
+        }
+    }
+    out = side.base;
+    for (std::size_t v = 0; v < out.size(); ++v) {
+        if (area[v] > 0.0F) {
+            out[v] = glm::max(out[v] + sum[v] / area[v], Rgb(0.0F));
+        }
+    }
+    return true;
+}
+
+std::size_t ReflectedChange::add_to(const Hierarchy& h, std::vector<std::shared_ptr<const SurfaceLayer>>& layers) const {
+    std::vector<std::uint8_t> new_ones(layers.size(), 0);
+    parallel_chunks(layers.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const SurfaceLayer& old = *layers[i];
+            std::vector<Rgb> front = surfaces_[i].front.base, back = surfaces_[i].back.base;
+            (void)changed(h, before_, *old.mesh, surfaces_[i].front, trace_, front);
+            if (old.has_back()) {
+                (void)changed(h, before_, *old.mesh, surfaces_[i].back, trace_, back);
+            }
+            if (front != old.irradiance_front || back != old.irradiance_back) {
+                auto layer = std::make_shared<SurfaceLayer>(old);
+                layer->irradiance_front = std::move(front);
+                layer->irradiance_back = std::move(back);
+                layers[i] = std::move(layer);
+                new_ones[i] = 1;
+            }
+        }
+    });
+    return std::size_t(std::count(new_ones.begin(), new_ones.end(), 1));
+}
+
+std::size_t ReflectedChange::memory_bytes() const {
+    std::size_t bytes = before_.size() * sizeof(Rgb);
+    for (const Surface& s : surfaces_) {
+        for (const Side* side : {&s.front, &s.back}) {
+            bytes += side->leaf.size() * sizeof(std::uint32_t) + side->base.size() * sizeof(Rgb);
+        }
+    }
+    return bytes;
+}
+
+} // namespace atrium
