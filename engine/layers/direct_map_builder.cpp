@@ -235,7 +235,7 @@ DirectMaps build_direct_maps(const RayScene& rays, std::span<const SurfaceCharts
 DirectMaps build_direct_maps(const RayScene& rays, std::span<const SurfaceCharts> charts, const DirectFunction& direct,
                              const std::function<bool(std::uint32_t)>& back_lit, const DirectMapSettings& settings,
                              const RunContext& context, double progress_from, double progress_to) {
-    const DirectPart part{direct, false, {}};
+    const DirectPart part{direct, false, false, {}};
     return build_direct_maps(rays, charts, std::span(&part, 1), back_lit, settings, context, progress_from, progress_to);
 }
 

@@ -23,6 +23,8 @@ struct DirectPart {
     /// From large sources only (sky through windows, panels): no streak is narrower than the first cells, so none is looked
     /// for between the samples, and texels of four times the finest size will do.
     bool soft = false;
+    /// From sources without size or nearly so: a few rays a sample, and repairs follow its shadows as far as they go.
+    bool sharp = false;
     /// A change within the box may change the light at the point, or at any within `radius` of it; anything may when empty.
     /// Called from many threads.
     std::function<bool(const vec3& point, float radius, const Box3& box)> touched = {};

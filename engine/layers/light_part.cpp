@@ -15,8 +15,9 @@ using State = LightNode::State;
 constexpr float kCoverEdge = 0.04F;
 constexpr std::size_t kGrain = 32;
 // Samples of one repair: above the first number only the coarsest nodes are looked at, and of these the second at most.
-constexpr std::size_t kMostExact = 8192;
-constexpr std::size_t kMostCoarse = 1024;
+constexpr std::size_t kMostSharp = 16384; // where a sample is a few rays
+constexpr std::size_t kMostExact = 2048;
+constexpr std::size_t kMostCoarse = 512;
 
 } // namespace
 
@@ -233,6 +234,20 @@ bool LightPart::may_change(const LightChange& change, std::uint32_t sheet, const
            });
 }
 
+// Round charts bend away from any plane: all of the surface at once.
+bool LightPart::may_change_round(const LightChange& change, std::uint32_t surface) const {
+    if (change.moved[surface] != 0 || !part_.touched) {
+        return true;
+    }
+    Box3 bounds;
+    for (const vec3& p : *sheets_.rays().surfaces()[surface].positions) {
+        bounds.add(p);
+    }
+    const float radius = 0.5F * bounds.diagonal() + settings_.cover_reach;
+    return std::any_of(change.boxes.begin(), change.boxes.end(),
+                       [&](const Box3& box) { return part_.touched(bounds.centre(), radius, box); });
+}
+
 // Per tile over all sheets: whether any place on it may change.
 std::vector<std::uint8_t> LightPart::tiles_to_look_at(const LightChange& change) const {
     struct Tile {
@@ -255,9 +270,9 @@ std::vector<std::uint8_t> LightPart::tiles_to_look_at(const LightChange& change)
                 continue;
             }
             const vec2 middle = vec2(float(t.u) + 0.5F, float(t.v) + 0.5F) * edge;
-            // Places of round charts are looked for one by one.
-            const bool may =
-                !sheet.chart->planar || may_change(change, t.sheet, middle, 0.5F * glm::length(sheet.chart->scale));
+            const bool may = sheet.chart->planar
+                                 ? may_change(change, t.sheet, middle, 0.5F * glm::length(sheet.chart->scale))
+                                 : may_change_round(change, sheet.surface);
             out[i] = may ? 1 : 0;
         }
     });
@@ -322,7 +337,7 @@ std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
             asked.push_back(i);
         }
     }
-    coarse_repair_ = part_.soft || asked.size() > kMostExact;
+    coarse_repair_ = part_.soft || asked.size() > (part_.sharp ? kMostSharp : kMostExact);
     if (coarse_repair_) {
         std::erase_if(asked, [&](std::uint32_t i) { return ((cells_.nodes[i].x | cells_.nodes[i].y) & coarse) != 0; });
         keep_most_seen(change, asked);
@@ -339,20 +354,29 @@ std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
     if (coarse_repair_) {
         return asked;
     }
-    const std::uint32_t s = cells_.steps(cells_.first_level());
+    std::vector<std::uint8_t> probe_hit(probes_.size(), 0);
+    parallel_chunks(first_probe_.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (auto sheet = std::uint32_t(begin); sheet < end && !context_->should_stop(); ++sheet) {
+            const std::size_t last = sheet + 1 < first_probe_.size() ? first_probe_[sheet + 1] : probes_.size();
+            for (std::size_t i = first_probe_[sheet]; i < last; ++i) {
+                const Probe& probe = probes_[i];
+                const bool asks = (probe.seen.known || probe.covered) &&
+                                  on_tile(sheet, std::uint32_t(probe.at.x), std::uint32_t(probe.at.y)) &&
+                                  may_change(change, sheet, probe.at, 0.0F);
+                probe_hit[i] = asks ? 1 : 0;
+            }
+        }
+    });
     for (std::uint32_t sheet = 0; sheet < first_probe_.size(); ++sheet) {
-        const std::size_t end = sheet + 1 < first_probe_.size() ? first_probe_[sheet + 1] : probes_.size();
-        for (std::size_t i = first_probe_[sheet]; i < end; ++i) {
-            Probe& probe = probes_[i];
-            if ((probe.seen.known || probe.covered) &&
-                on_tile(sheet, std::uint32_t(probe.at.x), std::uint32_t(probe.at.y)) &&
-                may_change(change, sheet, probe.at, 0.0F)) {
+        const std::size_t last = sheet + 1 < first_probe_.size() ? first_probe_[sheet + 1] : probes_.size();
+        for (std::size_t i = first_probe_[sheet]; i < last; ++i) {
+            if (probe_hit[i] != 0) {
                 Request r;
                 r.sheet = sheet;
                 r.index = std::uint32_t(i);
                 r.probe = true;
-                r.at = probe.at * metres_per_step(sheet);
-                r.reach = glm::length(metres_per_step(sheet)) * float(s);
+                r.at = probes_[i].at * metres_per_step(sheet);
+                r.reach = glm::length(metres_per_step(sheet)) * float(cells_.steps(cells_.first_level()));
                 requests_.push_back(r);
             }
         }

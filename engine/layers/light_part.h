@@ -64,6 +64,7 @@ private:
 
     [[nodiscard]] std::optional<vec3> place_of(std::uint32_t sheet, const vec2& steps) const;
     [[nodiscard]] bool may_change(const LightChange& change, std::uint32_t sheet, const vec2& steps, float radius) const;
+    [[nodiscard]] bool may_change_round(const LightChange& change, std::uint32_t surface) const;
     [[nodiscard]] std::vector<std::uint8_t> tiles_to_look_at(const LightChange& change) const;
     void keep_most_seen(const LightChange& change, std::vector<std::uint32_t>& nodes) const;
     std::vector<std::uint32_t> ask_again(const LightChange& change);

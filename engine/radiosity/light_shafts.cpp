@@ -140,7 +140,13 @@ bool LightShafts::straight(const vec3& point, float radius, const Box3& box) con
     return std::any_of(suns_.begin(), suns_.end(),
                        [&](const Sun& s) { return shaft_to_sun_touches(point, radius, s.direction, s.spread, box); }) ||
            std::any_of(balls_.begin(), balls_.end(), [&](const Ball& b) {
-               return worth(b) && shaft_to_ball_touches(point, radius, b.centre, b.radius, box);
+               // Most are far off: the box's ball against the shaft as a capsule.
+               const vec3 d = b.centre - point;
+               const float along = std::clamp(glm::dot(to, d) / std::max(glm::dot(d, d), 1e-12F), 0.0F, 1.0F);
+               const vec3 off = to - along * d;
+               const float reach = half + b.radius + radius + kRounding;
+               return glm::dot(off, off) <= reach * reach && worth(b) &&
+                      shaft_to_ball_touches(point, radius, b.centre, b.radius, box);
            });
 }
 

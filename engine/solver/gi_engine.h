@@ -66,6 +66,7 @@ public:
 private:
     struct Impl;
     static void reflect_change(Impl& impl, const RunContext& context);
+    static void show_direct_light(Impl& impl, const RunContext& context);
     std::unique_ptr<Impl> impl_;
 };
 

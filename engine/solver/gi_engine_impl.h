@@ -68,21 +68,21 @@ struct GiEngine::Impl {
         if (!punctual->lights().empty()) {
             parts.push_back(DirectPart{
                 [&](const vec3& p, const vec3& n) { return punctual->lamps_irradiance(p, n, settings.sun_rays); }, false,
-                [this](const vec3& p, float radius, const Box3& box) { return lamp_shafts.touched(p, radius, box); }});
+                true, [this](const vec3& p, float radius, const Box3& box) { return lamp_shafts.touched(p, radius, box); }});
         }
         if (!emitters.empty()) {
             parts.push_back(DirectPart{
-                [&](const vec3& p, const vec3& n) { return lamps->irradiance(p, n, settings); }, false,
+                [&](const vec3& p, const vec3& n) { return lamps->irradiance(p, n, settings); }, false, false,
                 [this](const vec3& p, float radius, const Box3& box) { return emitter_shafts.touched(p, radius, box); }});
         }
         if (mirrors && (!punctual->lights().empty() || !emitters.empty())) {
             parts.push_back(DirectPart{
-                [&](const vec3& p, const vec3& n) { return over_mirrors(p, n, settings); }, false,
+                [&](const vec3& p, const vec3& n) { return over_mirrors(p, n, settings); }, false, false,
                 [this](const vec3& p, float radius, const Box3& box) { return mirror_shafts.touched(p, radius, box); }});
         }
         if (punctual->has_sky()) {
             parts.push_back(DirectPart{
-                [&](const vec3& p, const vec3& n) { return punctual->sky_irradiance(p, n, settings.sky_rays); }, true,
+                [&](const vec3& p, const vec3& n) { return punctual->sky_irradiance(p, n, settings.sky_rays); }, true, false,
                 [this](const vec3& p, float radius, const Box3& box) { return sky_shafts.touched(p, radius, box); }});
         }
         return parts;
@@ -91,17 +91,17 @@ struct GiEngine::Impl {
     void find_shafts() {
         lamp_shafts = emitter_shafts = mirror_shafts = sky_shafts = {};
         lamp_shafts.add_lamps(*punctual);
-        emitter_shafts.add_emitters(emitters);
+        emitter_shafts.add_emitters(emitters, 32);
         sky_shafts.add_sky(punctual->sky());
         if (mirrors) {
             mirror_shafts.add_lamps(*punctual);
-            mirror_shafts.add_emitters(emitters, 16);
+            mirror_shafts.add_emitters(emitters, 8);
             mirror_shafts.over_mirrors(mirrors->mirrors());
         }
     }
-    [[nodiscard]] bool direct_light_touched(const vec3& point, const Box3& box) const {
-        return lamp_shafts.touched(point, 0.0F, box) || emitter_shafts.touched(point, 0.0F, box) ||
-               (mirrors && mirror_shafts.touched(point, 0.0F, box)) || sky_shafts.touched(point, 0.0F, box);
+    [[nodiscard]] bool direct_light_touched(const vec3& point, float radius, const Box3& box) const {
+        return lamp_shafts.touched(point, radius, box) || emitter_shafts.touched(point, radius, box) ||
+               (mirrors && mirror_shafts.touched(point, radius, box)) || sky_shafts.touched(point, radius, box);
     }
     [[nodiscard]] DirectSample direct_light(const vec3& point, const vec3& normal, const GatherSettings& settings) const {
         DirectSample out = direct->irradiance(point, normal, settings);

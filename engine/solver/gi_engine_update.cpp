@@ -2,7 +2,9 @@
 #include "engine/optics/specular.h"
 #include "engine/solver/gi_engine_impl.h"
 
+#include <algorithm>
 #include <chrono>
+#include <tuple>
 
 namespace atrium {
 namespace {
@@ -103,6 +105,93 @@ void GiEngine::reflect_change(Impl& s, const RunContext& context) {
     constexpr double kTolerance = 0.01;
     constexpr int kMostSweeps = 8;
     solve_radiosity(s.hierarchy, *live.exchange, kTolerance, kMostSweeps, context);
+}
+
+// Direct light on the vertices that a change may reach and that no chart holds, and the light maps that are new.
+void GiEngine::show_direct_light(Impl& s, const RunContext& context) {
+    Impl::Live& live = *s.live;
+    const LightChange& change = live.owed;
+    struct Look {
+        float angle = 0.0F; ///< how large what moved looks from there
+        std::uint32_t layer = 0, vertex = 0;
+        bool back = false;
+        Rgb light{0.0F};
+    };
+    std::vector<std::vector<Look>> found(live.layers.surfaces.size());
+    parallel_chunks(found.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
+            const VertexPlaces& places = live.layers.places[i];
+            const bool moved = change.moved[places.surface] != 0;
+            Box3 bounds;
+            for (const SurfacePoint& p : places.front) {
+                if (p.normal != vec3(0.0F)) {
+                    bounds.add(p.position);
+                }
+            }
+            for (const Box3& box : change.boxes) {
+                if (!moved && (bounds.empty() || !s.direct_light_touched(bounds.centre(), 0.5F * bounds.diagonal(), box))) {
+                    continue;
+                }
+                for (const auto* side : {&places.front, &places.back}) {
+                    for (std::uint32_t k = 0; k < side->size(); ++k) {
+                        const SurfacePoint& p = (*side)[k];
+                        if (p.normal != vec3(0.0F) && (moved || s.direct_light_touched(p.position, 0.0F, box))) {
+                            const float distance = glm::length(box.centre() - p.position);
+                            found[i].push_back({box.diagonal() / std::max(distance, 1e-3F), std::uint32_t(i), k,
+                                                side == &places.back, Rgb(0.0F)});
+                        }
+                    }
+                }
+            }
+        }
+    });
+    std::vector<Look> looks;
+    for (const std::vector<Look>& of : found) {
+        looks.insert(looks.end(), of.begin(), of.end());
+    }
+    const auto place = [](const Look& l) { return std::tuple(l.layer, l.back, l.vertex); };
+    std::sort(looks.begin(), looks.end(),
+              [&](const Look& a, const Look& b) { return place(a) != place(b) ? place(a) < place(b) : a.angle > b.angle; });
+    looks.erase(std::unique(looks.begin(), looks.end(), [&](const Look& a, const Look& b) { return place(a) == place(b); }),
+                looks.end());
+    // Of very many those from where most is seen of what moved; the others wait for the full solution.
+    constexpr std::size_t kMost = 3000;
+    if (looks.size() > kMost) {
+        std::stable_sort(looks.begin(), looks.end(), [](const Look& a, const Look& b) { return a.angle > b.angle; });
+        looks.resize(kMost);
+        std::sort(looks.begin(), looks.end(), [&](const Look& a, const Look& b) { return place(a) < place(b); });
+    }
+    parallel_chunks(looks.size(), 16, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
+            const VertexPlaces& places = live.layers.places[looks[i].layer];
+            const SurfacePoint& p = (looks[i].back ? places.back : places.front)[looks[i].vertex];
+            looks[i].light = s.direct_light(p.position, p.normal, s.field.direct).irradiance;
+        }
+    });
+    if (context.should_stop()) {
+        return;
+    }
+    std::size_t next = 0;
+    for (std::uint32_t i = 0; i < live.layers.surfaces.size(); ++i) {
+        const std::uint32_t surface = live.layers.places[i].surface;
+        const std::size_t first = next;
+        for (; next < looks.size() && looks[next].layer == i; ++next) {
+        }
+        if (first == next && live.new_maps[surface] == 0) {
+            continue;
+        }
+        auto layer = std::make_shared<SurfaceLayer>(*live.layers.surfaces[i]);
+        for (std::size_t k = first; k < next; ++k) {
+            std::vector<Rgb>& light = looks[k].back ? layer->direct_back : layer->direct_front;
+            light.resize(looks[k].back ? layer->irradiance_back.size() : layer->irradiance_front.size(), Rgb(0.0F));
+            light[looks[k].vertex] = looks[k].light;
+        }
+        if (!s.charts[surface].empty()) {
+            layer->direct_map_front = s.maps.front[surface];
+            layer->direct_map_back = s.maps.back[surface];
+        }
+        live.layers.surfaces[i] = std::move(layer);
+    }
 }
 
 bool GiEngine::can_update() const { return impl_->live != nullptr; }
@@ -218,46 +307,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
 
     context.progress("layers", 0.8);
 
-    for (std::size_t i = 0; i < live.layers.surfaces.size(); ++i) {
-        const VertexPlaces& places = live.layers.places[i];
-        const auto look_again = [&](const std::vector<SurfacePoint>& points, const std::vector<Rgb>& before) {
-            std::vector<Rgb> light = before;
-            light.resize(points.size(), Rgb(0.0F));
-            std::atomic<bool> any = false;
-            parallel_chunks(points.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
-                for (std::size_t k = begin; k < end && !context.should_stop(); ++k) {
-                    const SurfacePoint& p = points[k];
-                    if (p.normal != vec3(0.0F) &&
-                        (change.moved[places.surface] != 0 ||
-                         std::any_of(change.boxes.begin(), change.boxes.end(),
-                                     [&](const Box3& box) { return s.direct_light_touched(p.position, box); }))) {
-                        light[k] = s.direct_light(p.position, p.normal, s.field.direct).irradiance;
-                        any.store(true, std::memory_order_relaxed);
-                    }
-                }
-            });
-            const bool dark = std::all_of(light.begin(), light.end(), [](const Rgb& e) { return e == Rgb(0.0F); });
-            return any ? std::optional(dark ? std::vector<Rgb>{} : std::move(light)) : std::nullopt;
-        };
-        const SurfaceLayer& old = *live.layers.surfaces[i];
-        auto front = look_again(places.front, old.direct_front);
-        auto back = look_again(places.back, old.direct_back);
-        if (!front && !back && live.new_maps[places.surface] == 0) {
-            continue;
-        }
-        auto layer = std::make_shared<SurfaceLayer>(old);
-        if (front) {
-            layer->direct_front = std::move(*front);
-        }
-        if (back) {
-            layer->direct_back = std::move(*back);
-        }
-        if (!s.charts[places.surface].empty()) {
-            layer->direct_map_front = s.maps.front[places.surface];
-            layer->direct_map_back = s.maps.back[places.surface];
-        }
-        live.layers.surfaces[i] = std::move(layer);
-    }
+    show_direct_light(s, context);
     if (context.should_stop()) {
         return fail("", "", "stopped before the light had followed", "The next update goes on");
     }

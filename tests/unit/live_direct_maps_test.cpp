@@ -38,6 +38,7 @@ struct Shadow {
     [[nodiscard]] std::vector<DirectPart> parts(bool soft = false) {
         DirectPart part;
         part.soft = soft;
+        part.sharp = !soft;
         part.light = [this](const vec3& p, const vec3&) {
             ++calls;
             return DirectSample{Rgb(light_at(p.x, p.z)), 0.0F};
@@ -160,6 +161,23 @@ TEST(LiveDirectMaps, SoftLightFollowsOnTheCoarseGrid) {
     ASSERT_TRUE(report.complete);
     EXPECT_LT(shadow.error(maps), 0.6 * stale);
     EXPECT_LE(report.samples, 1024U);
+}
+
+// Neither sharp nor soft: as soon as very much is touched, the coarsest samples stand for the others.
+TEST(LiveDirectMaps, LargeChangesOfDearLightCostABoundedNumberOfSamples) {
+    Shadow shadow;
+    shadow.radius = 0.7F;
+    std::vector<DirectPart> parts = shadow.parts();
+    parts[0].sharp = false;
+    LiveDirectMaps live(
+        *shadow.rays, shadow.charts, parts, [](std::uint32_t) { return false; }, shadow.settings, shadow.context);
+    DirectMaps maps = live.build(0.0, 1.0);
+    const LightChange change = shadow.move(vec2(0.2F, 0.1F));
+    const double stale = shadow.error(maps);
+    const RepairReport report = live.repair(change, maps, shadow.context);
+    ASSERT_TRUE(report.complete);
+    EXPECT_LE(report.samples, 512U);
+    EXPECT_LT(shadow.error(maps), stale);
 }
 
 // ---- shafts
