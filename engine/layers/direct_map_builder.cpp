@@ -198,7 +198,7 @@ private:
     const RunContext* context_; ///< of the call at hand
     TileBudget budget_;
     std::vector<LightPart> parts_;
-    std::vector<SheetPlace> places_;     ///< of all sheets
+    std::vector<SheetPlace> places_;    ///< of all sheets
     std::vector<std::uint8_t> changed_; ///< per sheet: samples are new that no map shows yet
 };
 

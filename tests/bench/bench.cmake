@@ -27,6 +27,10 @@ target_link_libraries(caustic_bench PRIVATE atrium_engine CLI11::CLI11)
 add_executable(particle_update_bench
   ${CMAKE_CURRENT_LIST_DIR}/particle_update_bench.cpp ${CMAKE_CURRENT_LIST_DIR}/caustic_scenes.cpp)
 target_link_libraries(particle_update_bench PRIVATE atrium_engine CLI11::CLI11)
+
 add_executable(move_bench ${CMAKE_CURRENT_LIST_DIR}/move_bench.cpp)
 target_link_libraries(move_bench PRIVATE atrium_engine)
 target_compile_definitions(move_bench PRIVATE ATRIUM_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+
+add_executable(drag_bench ${CMAKE_CURRENT_LIST_DIR}/drag_bench.cpp)
+target_link_libraries(drag_bench PRIVATE atrium_engine CLI11::CLI11)
