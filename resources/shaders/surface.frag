@@ -120,16 +120,13 @@ vec3 mapped(vec2 uv) {
 #ifdef CAUSTICS
 // Sum of CausticTexture::irradiance(); `edge` is how much of a white outline (x) and of the dark line within it (y) is here.
 vec3 caustics(vec2 uv, vec2 pixel, out vec2 edge) {
-    // Fragments on a chart's edge may lie a little beyond it. Elsewhere a texture is black at its edge, so that nothing is
-    // gained by the tolerance.
-    vec2 slack = 0.25 * pixel;
-    bool near = uv == clamp(uv, u_caustic_bounds.xy - slack, u_caustic_bounds.zw + slack);
+    bool near = uv == clamp(uv, u_caustic_bounds.xy, u_caustic_bounds.zw);
     vec2 texel = 1.0 / vec2(textureSize(u_caustic_image, 0));
     vec3 sum = vec3(0.0);
     edge = vec2(0.0);
     for (int i = near ? 0 : u_caustic_count; i < u_caustic_count; ++i) {
         vec4 box = texelFetch(u_caustic_boxes, ivec2(0, i), 0);
-        if (uv == clamp(uv, box.xy - slack, box.zw + slack)) {
+        if (uv == clamp(uv, box.xy, box.zw)) {
             vec4 place = texelFetch(u_caustic_boxes, ivec2(1, i), 0);
             // A little inside the outermost texels' middles: a rounding beyond would mix in another texture's light.
             vec2 at = clamp((uv - box.xy) / (box.zw - box.xy) * place.zw, vec2(0.502), place.zw - 0.502);
