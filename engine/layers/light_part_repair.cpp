@@ -1,0 +1,279 @@
+// Looking again at the samples of a part of the direct light that a change may reach.
+#include "engine/base/parallel.h"
+#include "engine/layers/light_part.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace atrium {
+namespace {
+
+using State = LightNode::State;
+
+// Samples of one repair: above the first number only the coarsest nodes are looked at, and of these the second at most.
+constexpr std::size_t kMostSharp = 16384; // where a sample is a few rays
+constexpr std::size_t kMostExact = 2048;
+constexpr std::size_t kMostCoarse = 512;
+
+} // namespace
+
+// Where a place lies, by the chart's plane: enough to tell whether a change may reach it.
+std::optional<vec3> LightPart::place_of(std::uint32_t sheet, const vec2& steps) const {
+    const LightSheet& s = sheets_.sheets()[sheet];
+    const vec2 at = steps * metres_per_step(sheet);
+    if (s.chart->planar) {
+        return s.chart->origin + s.chart->axis_u * at.x + s.chart->axis_v * at.y;
+    }
+    const auto place = sheets_.locate(sheet, at, std::max(s.chart->scale.x, s.chart->scale.y));
+    return place ? std::optional(place->point) : std::nullopt;
+}
+
+bool LightPart::may_change(const LightChange& change, std::uint32_t sheet, const vec2& steps, float radius) const {
+    if (change.moved[sheets_.sheets()[sheet].surface] != 0 || !part_.touched) {
+        return true;
+    }
+    const auto point = place_of(sheet, steps);
+    return point && std::any_of(change.boxes.begin(), change.boxes.end(), [&](const Box3& box) {
+               const vec3 off = glm::max(glm::max(box.min - *point, *point - box.max), vec3(0.0F));
+               return glm::length(off) <= settings_.cover_reach + radius || part_.touched(*point, radius, box);
+           });
+}
+
+// Round charts bend away from any plane: all of the surface at once.
+bool LightPart::may_change_round(const LightChange& change, std::uint32_t surface) const {
+    if (change.moved[surface] != 0 || !part_.touched) {
+        return true;
+    }
+    Box3 bounds;
+    for (const vec3& p : *sheets_.rays().surfaces()[surface].positions) {
+        bounds.add(p);
+    }
+    const float radius = 0.5F * bounds.diagonal() + settings_.cover_reach;
+    return std::any_of(change.boxes.begin(), change.boxes.end(),
+                       [&](const Box3& box) { return part_.touched(bounds.centre(), radius, box); });
+}
+
+// Per tile over all sheets: whether any place on it may change.
+std::vector<std::uint8_t> LightPart::tiles_to_look_at(const LightChange& change) const {
+    struct Tile {
+        std::uint32_t sheet, u, v;
+    };
+    std::vector<Tile> tiles;
+    for (std::uint32_t i = 0; i < sheets_.sheets().size(); ++i) {
+        const Chart& chart = *sheets_.sheets()[i].chart;
+        for (std::uint32_t k = 0; k < chart.tiles_u * chart.tiles_v; ++k) {
+            tiles.push_back({i, k % chart.tiles_u, k / chart.tiles_u});
+        }
+    }
+    std::vector<std::uint8_t> out(tiles.size(), 0);
+    const auto edge = float(cells_.steps_per_tile());
+    parallel_chunks(tiles.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Tile& t = tiles[i];
+            const LightSheet& sheet = sheets_.sheets()[t.sheet];
+            if (sheet.used[t.v * sheet.chart->tiles_u + t.u] == 0) {
+                continue;
+            }
+            const vec2 middle = vec2(float(t.u) + 0.5F, float(t.v) + 0.5F) * edge;
+            const bool may = sheet.chart->planar
+                                 ? may_change(change, t.sheet, middle, 0.5F * glm::length(sheet.chart->scale))
+                                 : may_change_round(change, sheet.surface);
+            out[i] = may ? 1 : 0;
+        }
+    });
+    return out;
+}
+
+// Soft light costs many rays: of very many nodes those from where what moved looks largest, in order of index.
+void LightPart::keep_most_seen(const LightChange& change, std::vector<std::uint32_t>& nodes) const {
+
+    if (nodes.size() <= kMostCoarse) {
+        return;
+    }
+    std::vector<std::pair<float, std::uint32_t>> seen;
+    for (const std::uint32_t i : nodes) {
+        const LightNode& n = cells_.nodes[i];
+        float angle = 0.0F;
+        const auto point = place_of(n.sheet, vec2(float(n.x), float(n.y)));
+        for (const Box3& box : change.boxes) {
+            angle = point ? std::max(angle, box.diagonal() / std::max(glm::length(box.centre() - *point), 1e-3F)) : angle;
+        }
+        seen.emplace_back(-angle, i);
+    }
+    std::nth_element(seen.begin(), seen.begin() + kMostCoarse, seen.end());
+    seen.resize(kMostCoarse);
+    nodes.clear();
+    for (const auto& [angle, i] : seen) {
+        nodes.push_back(i);
+    }
+    std::sort(nodes.begin(), nodes.end());
+}
+
+// Requests for the nodes and probes that a change may reach; the nodes.
+std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
+    const std::vector<std::uint8_t> tiles = tiles_to_look_at(change);
+    const std::uint32_t coarse = cells_.steps(cells_.first_level()) - 1;
+    // Nodes on a common edge belong to the tile behind it; the tile before it is asked too.
+    const auto on_tile = [&](std::uint32_t sheet, std::uint32_t x, std::uint32_t y) {
+        const Chart& chart = *sheets_.sheets()[sheet].chart;
+        const unsigned shift = cells_.max_level();
+        bool any = false;
+        for (std::uint32_t k = 0; k < 4 && !any; ++k) {
+            const std::uint32_t dx = k & 1U, dy = k >> 1U;
+            if (x >= dx && y >= dy && (x - dx) >> shift < chart.tiles_u && (y - dy) >> shift < chart.tiles_v) {
+                any = tiles[cells_.tile_index(sheet, (x - dx) >> shift, (y - dy) >> shift)] != 0;
+            }
+        }
+        return any;
+    };
+    std::vector<std::uint8_t> hit(cells_.nodes.size(), 0);
+    parallel_chunks(hit.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end && !context_->should_stop(); ++i) {
+            const LightNode& n = cells_.nodes[i];
+            const bool skipped = part_.soft && ((n.x | n.y) & coarse) != 0;
+            const bool asks = !skipped && n.state != State::Void && on_tile(n.sheet, n.x, n.y) &&
+                              may_change(change, n.sheet, vec2(float(n.x), float(n.y)), 0.0F);
+            hit[i] = asks ? 1 : 0;
+        }
+    });
+    std::vector<std::uint32_t> asked;
+    for (std::uint32_t i = 0; i < hit.size(); ++i) {
+        if (hit[i] != 0) {
+            asked.push_back(i);
+        }
+    }
+    coarse_repair_ = part_.soft || asked.size() > (part_.sharp ? kMostSharp : kMostExact);
+    if (coarse_repair_) {
+        std::erase_if(asked, [&](std::uint32_t i) { return ((cells_.nodes[i].x | cells_.nodes[i].y) & coarse) != 0; });
+        keep_most_seen(change, asked);
+    }
+    for (const std::uint32_t i : asked) {
+        const LightNode& n = cells_.nodes[i];
+        Request r;
+        r.sheet = n.sheet;
+        r.index = i;
+        r.at = vec2(float(n.x), float(n.y)) * metres_per_step(n.sheet);
+        r.reach = glm::length(metres_per_step(n.sheet)) * float(cells_.steps(cells_.first_level()));
+        requests_.push_back(r);
+    }
+    if (coarse_repair_) {
+        return asked;
+    }
+    std::vector<std::uint8_t> probe_hit(probes_.size(), 0);
+    parallel_chunks(first_probe_.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (auto sheet = std::uint32_t(begin); sheet < end && !context_->should_stop(); ++sheet) {
+            const std::size_t last = sheet + 1 < first_probe_.size() ? first_probe_[sheet + 1] : probes_.size();
+            for (std::size_t i = first_probe_[sheet]; i < last; ++i) {
+                const Probe& probe = probes_[i];
+                const bool asks = (probe.seen.known || probe.covered) &&
+                                  on_tile(sheet, std::uint32_t(probe.at.x), std::uint32_t(probe.at.y)) &&
+                                  may_change(change, sheet, probe.at, 0.0F);
+                probe_hit[i] = asks ? 1 : 0;
+            }
+        }
+    });
+    for (std::uint32_t sheet = 0; sheet < first_probe_.size(); ++sheet) {
+        const std::size_t last = sheet + 1 < first_probe_.size() ? first_probe_[sheet + 1] : probes_.size();
+        for (std::size_t i = first_probe_[sheet]; i < last; ++i) {
+            if (probe_hit[i] != 0) {
+                Request r;
+                r.sheet = sheet;
+                r.index = std::uint32_t(i);
+                r.probe = true;
+                r.at = probes_[i].at * metres_per_step(sheet);
+                r.reach = glm::length(metres_per_step(sheet)) * float(cells_.steps(cells_.first_level()));
+                requests_.push_back(r);
+            }
+        }
+    }
+    return asked;
+}
+
+// Soft light changes slowly: what the coarsest nodes say of the change, the finer ones between them follow.
+void LightPart::spread_change(const std::vector<std::uint32_t>& asked, const std::vector<LightNode>& before) {
+    const std::uint32_t s = cells_.steps(cells_.first_level());
+    std::vector<std::uint32_t> place(cells_.nodes.size(), LightCells::kNone); // of a node in `asked`
+    for (std::uint32_t k = 0; k < asked.size(); ++k) {
+        place[asked[k]] = k;
+    }
+    const auto difference = [&](std::uint32_t sheet, std::uint32_t x, std::uint32_t y) {
+        const std::uint32_t n = cells_.find(sheet, x, y);
+        if (n == LightCells::kNone || place[n] == LightCells::kNone || !cells_.nodes[n].known() ||
+            !before[place[n]].known()) {
+            return Rgb(0.0F);
+        }
+        return cells_.nodes[n].irradiance - before[place[n]].irradiance;
+    };
+    parallel_chunks(cells_.nodes.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end && !context_->should_stop(); ++i) {
+            LightNode& n = cells_.nodes[i];
+            if (((n.x | n.y) & (s - 1)) == 0 || !n.known()) {
+                continue;
+            }
+            const std::uint32_t x = n.x & ~(s - 1), y = n.y & ~(s - 1);
+            const float fx = float(n.x - x) / float(s), fy = float(n.y - y) / float(s);
+            const Rgb d = (difference(n.sheet, x, y) * (1.0F - fx) + difference(n.sheet, x + s, y) * fx) * (1.0F - fy) +
+                          (difference(n.sheet, x, y + s) * (1.0F - fx) + difference(n.sheet, x + s, y + s) * fx) * fy;
+            n.irradiance = glm::max(n.irradiance + d, Rgb(0.0F));
+        }
+    });
+}
+
+// The undivided cells that meet at nodes, each once.
+std::vector<LightCell> LightPart::cells_around(const std::vector<std::uint32_t>& changed) const {
+    std::vector<LightCell> out;
+    for (const std::uint32_t i : changed) {
+        const LightNode& n = cells_.nodes[i];
+        for (std::int64_t k = 0; k < 4; ++k) {
+            if (const auto cell = cells_.leaf(n.sheet, std::int64_t(n.x) - (k & 1), std::int64_t(n.y) - (k >> 1))) {
+                out.push_back(*cell);
+            }
+        }
+    }
+    const auto key = [](const LightCell& c) { return std::tuple(c.sheet, c.y, c.x, c.level); };
+    std::sort(out.begin(), out.end(), [&](const LightCell& a, const LightCell& b) { return key(a) < key(b); });
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+}
+
+bool LightPart::repair(const LightChange& change, const RunContext& context, std::vector<std::uint8_t>& changed_sheets) {
+    context_ = &context;
+    const std::vector<std::uint32_t> asked = ask_again(change);
+    std::vector<LightNode> before;
+    before.reserve(asked.size());
+    for (const std::uint32_t i : asked) {
+        before.push_back(cells_.nodes[i]);
+    }
+    bool going_on = sample(0.0, 0.0);
+    std::vector<std::uint32_t> changed;
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+        const LightNode& now = cells_.nodes[asked[k]];
+        if (now.irradiance != before[k].irradiance || now.state != before[k].state) {
+            changed.push_back(asked[k]);
+            changed_sheets[now.sheet] = 1;
+        }
+    }
+    if (coarse_repair_) {
+        if (going_on && !changed.empty()) {
+            spread_change(asked, before);
+        }
+        return going_on;
+    }
+    std::vector<LightCell> fresh = cells_around(changed);
+    std::vector<Rough> rough;
+    while (going_on && !(fresh.empty() && rough.empty())) {
+        examine(fresh, rough);
+        fresh = divide(rough);
+        rough.clear();
+        const std::size_t first_new = sampled_;
+        going_on = sample(0.0, 0.0);
+        look_beside(first_new, rough);
+    }
+    return going_on;
+}
+
+std::size_t LightPart::memory_bytes() const {
+    return cells_.memory_bytes() + probes_.size() * sizeof(Probe) + first_probe_.size() * sizeof(std::size_t);
+}
+
+} // namespace atrium
