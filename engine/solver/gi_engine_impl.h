@@ -59,6 +59,8 @@ struct GiEngine::Impl {
     CausticSettings caustic_settings;
     Rgb sky_radiance{0.0F}; ///< cd/m2
     // Shafts of the parts of direct light: what a change reaches. In the order of direct_parts().
+    std::unique_ptr<MirrorLight> mirrors_before; ///< while a moved mirror's old light is taken away
+    LightShafts mirror_shafts_before;
     LightShafts lamp_shafts, emitter_shafts, mirror_shafts, sky_shafts;
 
     [[nodiscard]] bool nothing_direct() const { return punctual->empty() && emitters.empty(); }
@@ -76,9 +78,11 @@ struct GiEngine::Impl {
                 [this](const vec3& p, float radius, const Box3& box) { return emitter_shafts.touched(p, radius, box); }});
         }
         if (mirrors && (!punctual->lights().empty() || !emitters.empty())) {
-            parts.push_back(DirectPart{
-                [&](const vec3& p, const vec3& n) { return over_mirrors(p, n, settings); }, false, false,
-                [this](const vec3& p, float radius, const Box3& box) { return mirror_shafts.touched(p, radius, box); }});
+            parts.push_back(
+                DirectPart{[&](const vec3& p, const vec3& n) { return over_mirrors(p, n, settings); }, false, true,
+                           [this](const vec3& p, float radius, const Box3& box) {
+                               return mirror_shafts.touched(p, radius, box) || mirror_shafts_before.touched(p, radius, box);
+                           }});
         }
         if (punctual->has_sky()) {
             parts.push_back(DirectPart{
@@ -101,7 +105,8 @@ struct GiEngine::Impl {
     }
     [[nodiscard]] bool direct_light_touched(const vec3& point, float radius, const Box3& box) const {
         return lamp_shafts.touched(point, radius, box) || emitter_shafts.touched(point, radius, box) ||
-               (mirrors && mirror_shafts.touched(point, radius, box)) || sky_shafts.touched(point, radius, box);
+               (mirrors && mirror_shafts.touched(point, radius, box)) || mirror_shafts_before.touched(point, radius, box) ||
+               sky_shafts.touched(point, radius, box);
     }
     [[nodiscard]] DirectSample direct_light(const vec3& point, const vec3& normal, const GatherSettings& settings) const {
         DirectSample out = direct->irradiance(point, normal, settings);

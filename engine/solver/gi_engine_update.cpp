@@ -251,6 +251,10 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         mirror_moved = mirror_moved || is_specular(material);
     }
     if (mirror_moved && s.mirrors) {
+        if (!s.mirrors_before) { // what it threw where it stood has to go too
+            s.mirrors_before = std::move(s.mirrors);
+            s.mirror_shafts_before = s.mirror_shafts;
+        }
         s.mirrors = std::make_unique<MirrorLight>(*s.rays);
         s.find_shafts();
     }
@@ -319,6 +323,8 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     }
     change = {};
     live.new_maps.clear();
+    s.mirrors_before.reset();
+    s.mirror_shafts_before = {};
     solution->revision = options.revision;
     solution->final = false;
     solution->surfaces = live.layers.surfaces;

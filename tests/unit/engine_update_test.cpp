@@ -113,6 +113,29 @@ TEST(EngineUpdate, SaysWhenOnlyASolutionHelps) {
     refuses([](Room& r) { r.scene.environment.sky_radiance = Rgb(100.0F); });
 }
 
+// A mirror takes the patch that it throws along, and leaves none behind.
+TEST(EngineUpdate, AMirrorTakesItsLightAlong) {
+    Room room(0.02F);
+    Material metal;
+    metal.metallic = 1.0F;
+    metal.roughness = 0.0F;
+    metal.base_color = Rgb(1.0F);
+    const NodeId mirror = add_rectangle(room.scene, "mirror", {3.9, 1.2, 1.0}, {-1, 0, 0}, {0, 0, 1}, 0.8F, 1.2F,
+                                        room.scene.materials.insert(metal));
+    const auto before = room.solve();
+    ASSERT_TRUE(before);
+    room.scene.nodes.find(mirror)->transform.translation += dvec3(0.0, 0.0, 1.6);
+    const auto updated = room.engine.update(room.scene, room.options, {});
+    ASSERT_TRUE(updated);
+    Room fresh(0.02F);
+    fresh.scene = room.scene;
+    const std::vector<double> expected = fresh.floor_light(*fresh.solve());
+    const double error = relative_rms(room.floor_light(**updated), expected);
+    const double stale = relative_rms(room.floor_light(*before), expected);
+    std::printf("mirror: rms %.2f %%, light that does not follow %.2f %%\n", 100.0 * error, 100.0 * stale);
+    EXPECT_LT(error, 0.25 * stale);
+}
+
 TEST(EngineUpdate, NeedsACompleteSolutionThatWasKept) {
     Room room;
     EXPECT_FALSE(room.engine.update(room.scene, room.options, {}));
