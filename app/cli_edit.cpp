@@ -34,6 +34,7 @@ struct Arguments {
 struct Verification {
     double fresh_seconds = 0;
     LightDifference difference;
+    std::optional<double> settled; ///< rel_rms of the light that was settled first
 };
 struct Played {
     EditReport report;
@@ -55,6 +56,7 @@ Json as_json(const Played& played, bool verified) {
                 {"node", r.target},
                 {"frames", frames},
                 {"settle", number_or_null(r.settle)},
+                {"settled", number_or_null(r.settled)},
                 {"particles_traced", r.update.particles_traced},
                 {"particles_share", r.update.particles_share},
                 {"links_visited", r.update.links_visited},
@@ -69,6 +71,7 @@ Json as_json(const Played& played, bool verified) {
                          {"rel_max", v->difference.rel_max},
                          {"energy_rel", v->difference.energy_rel},
                          {"points", v->difference.points}};
+        out["verify"]["settled_rel_rms"] = number_or_null(v->settled);
     }
     return out;
 }
@@ -156,7 +159,10 @@ private:
             return false;
         }
         played.verification =
-            Verification{seconds_since_start() - before, light_difference(player.scene(), *player.light(), **result)};
+            Verification{seconds_since_start() - before, light_difference(player.scene(), *player.light(), **result), {}};
+        if (const auto& settled = played.report.settled_light) {
+            played.verification->settled = light_difference(player.scene(), *settled, **result).rel_rms;
+        }
         return true;
     }
 

@@ -34,6 +34,9 @@ struct DirectPart {
 struct LightChange {
     std::vector<Box3> boxes;         ///< bounds before and after, engine coordinates
     std::vector<std::uint8_t> moved; ///< per surface of the ray scene: its own points moved
+    /// Many samples, with all their rays, instead of those that count at a glance; what earlier repairs left out or looked
+    /// at in passing is made good.
+    bool exact = false;
 };
 
 /// What a repair did.

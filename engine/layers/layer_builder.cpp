@@ -505,12 +505,13 @@ private:
     }
 
     void add_places(VertexPlaces& places, const LightVertex& v) const {
-        const auto place = [&](const vec3& n, bool covered) {
-            return v.unlit || covered || v.charted() ? SurfacePoint{} : SurfacePoint{sample_position(v, n), n};
-        };
-        places.front.push_back(place(v.normal, v.front_covered));
+        const auto place = [&](const vec3& n) { return v.unlit ? SurfacePoint{} : SurfacePoint{sample_position(v, n), n}; };
+        const unsigned covered = (v.front_covered ? 1U : 0U) | (v.back_covered ? 2U : 0U);
+        places.state.push_back(std::uint8_t((v.charted() ? VertexPlaces::kCharted : 0U) | covered * VertexPlaces::kCovered |
+                                            covered * VertexPlaces::kWasCovered));
+        places.front.push_back(place(v.normal));
         if (v.wants_back) {
-            places.back.push_back(place(-v.normal, v.back_covered));
+            places.back.push_back(place(-v.normal));
         }
     }
 

@@ -39,12 +39,42 @@ struct LightMaps {
     std::span<const std::shared_ptr<const LightMap>> back;
 };
 
-/// Where the vertices of a surface's layer took their direct light, for who wants to look again. Engine coordinates; a zero
-/// normal marks vertices that have none of their own (charted, covered, mirrors).
+/// Where the vertices of a surface's layer took their light, for who wants to look again. Engine coordinates; a zero normal
+/// marks vertices that show none (mirrors).
 struct VertexPlaces {
     std::uint32_t surface = 0; ///< of RayScene::surfaces()
     std::vector<SurfacePoint> front;
-    std::vector<SurfacePoint> back; ///< empty without a back side
+    std::vector<SurfacePoint> back;             ///< empty without a back side
+    std::vector<std::uint8_t> state;            ///< per vertex, of the following bits
+    static constexpr std::uint8_t kCharted = 1; ///< direct light is in the light map and not on the vertex
+    /// Something lies on it: it shows its neighbours' light. Front; the back's bit is twice that.
+    static constexpr std::uint8_t kCovered = 2;
+    static constexpr std::uint8_t kWasCovered = 8; ///< the same when all was built
+    /// Direct light was left out or looked at in passing by an update in a hurry. Front; the back's bit is twice that.
+    static constexpr std::uint8_t kStale = 32;
+
+    [[nodiscard]] const std::vector<SurfacePoint>& side(bool is_back) const { return is_back ? back : front; }
+    [[nodiscard]] bool covered(std::size_t vertex, bool is_back) const {
+        return (state[vertex] & (is_back ? 2U * kCovered : kCovered)) != 0;
+    }
+    [[nodiscard]] bool was_covered(std::size_t vertex, bool is_back) const {
+        return (state[vertex] & (is_back ? 2U * kWasCovered : kWasCovered)) != 0;
+    }
+    [[nodiscard]] bool stale(std::size_t vertex, bool is_back) const {
+        return (state[vertex] & (is_back ? 2U * kStale : kStale)) != 0;
+    }
+    void set_stale(std::size_t vertex, bool is_back, bool is_stale) {
+        const unsigned bit = is_back ? 2U * kStale : kStale;
+        state[vertex] = std::uint8_t(is_stale ? state[vertex] | bit : state[vertex] & ~bit);
+    }
+    /// The vertex has light of its own on this side.
+    [[nodiscard]] bool shows(std::size_t vertex, bool is_back) const {
+        return side(is_back)[vertex].normal != vec3(0.0F) && !covered(vertex, is_back);
+    }
+    /// It has direct light of its own there.
+    [[nodiscard]] bool shows_direct(std::size_t vertex, bool is_back) const {
+        return (state[vertex] & kCharted) == 0 && shows(vertex, is_back);
+    }
 };
 
 /// What build_layers() makes.

@@ -66,7 +66,7 @@ private:
     [[nodiscard]] bool may_change(const LightChange& change, std::uint32_t sheet, const vec2& steps, float radius) const;
     [[nodiscard]] bool may_change_round(const LightChange& change, std::uint32_t surface) const;
     [[nodiscard]] std::vector<std::uint8_t> tiles_to_look_at(const LightChange& change) const;
-    void keep_most_seen(const LightChange& change, std::vector<std::uint32_t>& nodes) const;
+    void keep_most_seen(const LightChange& change, std::size_t most, std::vector<std::uint32_t>& nodes) const;
     std::vector<std::uint32_t> ask_again(const LightChange& change);
     void spread_change(const std::vector<std::uint32_t>& asked, const std::vector<LightNode>& before);
     [[nodiscard]] std::vector<LightCell> cells_around(const std::vector<std::uint32_t>& changed) const;
@@ -102,10 +102,11 @@ private:
     std::vector<std::size_t> first_probe_; ///< per sheet; a probe per cell of the first level, row by row
     std::vector<Probe> probes_;
     std::vector<Request> requests_;
-    bool coarse_repair_ = false; ///< the repair at hand looks at the coarsest nodes only
-    std::size_t asked_ = 0;      ///< nodes that were asked for
-    std::size_t taken_ = 0;      ///< samples
-    std::size_t sampled_ = 0;    ///< nodes that were sampled
+    bool coarse_repair_ = false;      ///< the repair at hand looks at the coarsest nodes only
+    std::vector<std::uint8_t> stale_; ///< per node (those beyond its end: 0): left out or guessed by a repair in a hurry
+    std::size_t asked_ = 0;           ///< nodes that were asked for
+    std::size_t taken_ = 0;           ///< samples
+    std::size_t sampled_ = 0;         ///< nodes that were sampled
 };
 
 } // namespace atrium

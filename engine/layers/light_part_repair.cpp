@@ -10,10 +10,14 @@ namespace {
 
 using State = LightNode::State;
 
-// Samples of one repair: above the first number only the coarsest nodes are looked at, and of these the second at most.
-constexpr std::size_t kMostSharp = 16384; // where a sample is a few rays
-constexpr std::size_t kMostExact = 2048;
-constexpr std::size_t kMostCoarse = 512;
+/// Samples of one repair of a part: above a number only the coarsest nodes are looked at, and of these a number at most.
+struct Most {
+    std::size_t sharp; ///< where a sample is a few rays
+    std::size_t dear;
+    std::size_t coarse;
+};
+constexpr Most kInAHurry{16384, 2048, 512};
+constexpr Most kExact{1U << 20, 32768, 16384};
 
 } // namespace
 
@@ -85,9 +89,8 @@ std::vector<std::uint8_t> LightPart::tiles_to_look_at(const LightChange& change)
 }
 
 // Soft light costs many rays: of very many nodes those from where what moved looks largest, in order of index.
-void LightPart::keep_most_seen(const LightChange& change, std::vector<std::uint32_t>& nodes) const {
-
-    if (nodes.size() <= kMostCoarse) {
+void LightPart::keep_most_seen(const LightChange& change, std::size_t most, std::vector<std::uint32_t>& nodes) const {
+    if (nodes.size() <= most) {
         return;
     }
     std::vector<std::pair<float, std::uint32_t>> seen;
@@ -100,8 +103,8 @@ void LightPart::keep_most_seen(const LightChange& change, std::vector<std::uint3
         }
         seen.emplace_back(-angle, i);
     }
-    std::nth_element(seen.begin(), seen.begin() + kMostCoarse, seen.end());
-    seen.resize(kMostCoarse);
+    std::nth_element(seen.begin(), seen.begin() + std::ptrdiff_t(most), seen.end());
+    seen.resize(most);
     nodes.clear();
     for (const auto& [angle, i] : seen) {
         nodes.push_back(i);
@@ -111,6 +114,7 @@ void LightPart::keep_most_seen(const LightChange& change, std::vector<std::uint3
 
 // Requests for the nodes and probes that a change may reach; the nodes.
 std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
+    const Most& most = change.exact ? kExact : kInAHurry;
     const std::vector<std::uint8_t> tiles = tiles_to_look_at(change);
     const std::uint32_t coarse = cells_.steps(cells_.first_level()) - 1;
     // Nodes on a common edge belong to the tile behind it; the tile before it is asked too.
@@ -127,12 +131,14 @@ std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
         return any;
     };
     std::vector<std::uint8_t> hit(cells_.nodes.size(), 0);
+    stale_.resize(cells_.nodes.size(), 0);
     parallel_chunks(hit.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context_->should_stop(); ++i) {
             const LightNode& n = cells_.nodes[i];
             const bool skipped = part_.soft && ((n.x | n.y) & coarse) != 0;
-            const bool asks = !skipped && n.state != State::Void && on_tile(n.sheet, n.x, n.y) &&
-                              may_change(change, n.sheet, vec2(float(n.x), float(n.y)), 0.0F);
+            const bool asks = (change.exact && !skipped && stale_[i] != 0) ||
+                              (!skipped && n.state != State::Void && on_tile(n.sheet, n.x, n.y) &&
+                               may_change(change, n.sheet, vec2(float(n.x), float(n.y)), 0.0F));
             hit[i] = asks ? 1 : 0;
         }
     });
@@ -140,12 +146,13 @@ std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
     for (std::uint32_t i = 0; i < hit.size(); ++i) {
         if (hit[i] != 0) {
             asked.push_back(i);
+            stale_[i] = 1; // until it is really looked at
         }
     }
-    coarse_repair_ = part_.soft || asked.size() > (part_.sharp ? kMostSharp : kMostExact);
+    coarse_repair_ = part_.soft || asked.size() > (part_.sharp ? most.sharp : most.dear);
     if (coarse_repair_) {
         std::erase_if(asked, [&](std::uint32_t i) { return ((cells_.nodes[i].x | cells_.nodes[i].y) & coarse) != 0; });
-        keep_most_seen(change, asked);
+        keep_most_seen(change, most.coarse, asked);
     }
     for (const std::uint32_t i : asked) {
         const LightNode& n = cells_.nodes[i];
@@ -214,7 +221,10 @@ void LightPart::spread_change(const std::vector<std::uint32_t>& asked, const std
             const float fx = float(n.x - x) / float(s), fy = float(n.y - y) / float(s);
             const Rgb d = (difference(n.sheet, x, y) * (1.0F - fx) + difference(n.sheet, x + s, y) * fx) * (1.0F - fy) +
                           (difference(n.sheet, x, y + s) * (1.0F - fx) + difference(n.sheet, x + s, y + s) * fx) * fy;
-            n.irradiance = glm::max(n.irradiance + d, Rgb(0.0F));
+            if (d != Rgb(0.0F)) {
+                n.irradiance = glm::max(n.irradiance + d, Rgb(0.0F));
+                stale_[i] = part_.soft ? 0 : 1; // steps of soft light add up to what the coarse nodes came to
+            }
         }
     });
 }
@@ -245,6 +255,9 @@ bool LightPart::repair(const LightChange& change, const RunContext& context, std
         before.push_back(cells_.nodes[i]);
     }
     bool going_on = sample(0.0, 0.0);
+    for (const std::uint32_t i : asked) {
+        stale_[i] = !going_on || !change.exact ? 1 : 0; // stopped: nobody knows which were looked at
+    }
     std::vector<std::uint32_t> changed;
     for (std::size_t k = 0; k < asked.size(); ++k) {
         const LightNode& now = cells_.nodes[asked[k]];

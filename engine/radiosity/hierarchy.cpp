@@ -67,6 +67,42 @@ std::vector<std::uint32_t> Hierarchy::leaves() const {
     return out;
 }
 
+void Hierarchy::follow(std::uint32_t surface, const dmat4& motion) {
+    const auto point = [&](const vec3& p) { return vec3(dvec3(motion * dvec4(dvec3(p), 1.0))); };
+    const auto direction = [&](const vec3& d) { return vec3(glm::normalize(dmat3(motion) * dvec3(d))); };
+    for (Sheet& s : sheets) {
+        if (s.surface == surface) {
+            s.origin = point(s.origin);
+            s.axis_u = direction(s.axis_u);
+            s.axis_v = direction(s.axis_v);
+            s.normal = direction(s.normal);
+        }
+    }
+    for (PatchCell& cell : patches) {
+        if (sheets[cell.sheet].surface == surface) {
+            for (vec3& corner : cell.corner) {
+                corner = point(corner);
+            }
+        }
+    }
+    for (Face& f : faces) {
+        if (f.surface == surface) {
+            f.normal = direction(f.normal);
+        }
+    }
+    for (Element& e : elements) {
+        if (e.kind == Element::Kind::Patch && e.surface == surface) {
+            e.centre = point(e.centre);
+            e.normal = direction(e.normal);
+        } else if (e.kind == Element::Kind::Faces) {
+            const auto first = faces.begin() + e.triangle;
+            if (std::all_of(first, first + e.face_count, [&](const Face& f) { return f.surface == surface; })) {
+                e.centre = point(e.centre);
+            }
+        }
+    }
+}
+
 void Hierarchy::pull_radiosity() {
     // Children always come after their parent, so one backward pass visits them first.
     for (std::size_t i = elements.size(); i-- > 0;) {

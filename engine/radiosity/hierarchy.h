@@ -155,6 +155,8 @@ struct Hierarchy {
     [[nodiscard]] std::vector<std::uint32_t> leaves() const;
     /// Recomputes power and spread of every element from the leaves' radiosity, and all radiosities above them.
     void pull_radiosity();
+    /// Takes a rigid motion of a surface over to the patches on it and to Faces elements with no others; clusters stay.
+    void follow(std::uint32_t surface, const dmat4& motion);
     /// Corners of a Patch, its cell's.
     [[nodiscard]] const std::array<vec3, 4>& corners(const Element& e) const { return patches[e.patch].corner; }
     /// Share of a Patch's corners' area that is surface.

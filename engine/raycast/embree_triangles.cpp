@@ -39,13 +39,15 @@ EmbreeTriangles::~EmbreeTriangles() {
 }
 
 void EmbreeTriangles::release_scenes() {
-    for (RTCScene* scene : {&still_, &still_filters_, &moved_}) {
+    for (RTCScene* scene : {&still_, &still_filters_, &moved_, &before_}) {
         if (*scene != nullptr) {
             rtcReleaseScene(*scene);
             *scene = nullptr;
         }
     }
     moved_surfaces_.clear();
+    before_surfaces_.clear();
+    before_reach_ = {};
     moved_reach_ = {};
     moved_filter_reach_ = {};
 }
@@ -72,6 +74,7 @@ RTCGeometry EmbreeTriangles::make(const RaySurface& surface, bool filters) const
 
 void EmbreeTriangles::build(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters) {
     release_scenes();
+    rebuilt_ = false;
     still_ = new_scene();
     still_filters_ = new_scene();
     triangles_ = 0;
@@ -100,6 +103,7 @@ void EmbreeTriangles::move(std::span<const std::uint32_t> moved, std::span<const
     }
     if (at_rest > std::max(kFewMoved, triangles_ / kMostMovedShare)) {
         build(surfaces, filters);
+        rebuilt_ = true;
         return;
     }
     if (moved_ == nullptr) {
@@ -187,19 +191,83 @@ bool EmbreeTriangles::meets(const Reach& reach, const vec3& origin, const vec3& 
 void EmbreeTriangles::take_nearer_of_moved(RTCRayHit& query) const {
     const RTCRay& ray = query.ray;
     const Reach& reach = ray.mask == kFilter ? moved_filter_reach_ : moved_reach_;
-    if (!meets(reach, {ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}, ray.tnear, ray.tfar)) {
-        return;
+    if (meets(reach, {ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}, ray.tnear, ray.tfar)) {
+        take_nearer_of(moved_, moved_surfaces_, query);
     }
+}
+
+void EmbreeTriangles::take_nearer_of(RTCScene scene, const std::vector<std::uint32_t>& numbers, RTCRayHit& query) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit nearer = query;
     nearer.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     nearer.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(moved_, &context, &nearer);
+    rtcIntersect1(scene, &context, &nearer);
     if (nearer.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
         query = nearer;
-        query.hit.geomID = moved_surfaces_[nearer.hit.geomID];
+        query.hit.geomID = numbers[nearer.hit.geomID];
     }
+}
+
+bool EmbreeTriangles::remember(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters) {
+    if (rebuilt_) {
+        return false;
+    }
+    if (before_surfaces_.size() == moved_surfaces_.size()) {
+        return true;
+    }
+    if (before_ == nullptr) {
+        before_ = new_scene();
+    }
+    Box3 all = before_reach_.empty() ? Box3{} : before_reach_.box;
+    for (std::size_t k = before_surfaces_.size(); k < moved_surfaces_.size(); ++k) {
+        const std::uint32_t i = moved_surfaces_[k];
+        // Its first place is in the buffers of what stands still, where its mask hides it from rays.
+        const RaySurface& surface = surfaces[i];
+        const auto* was =
+            static_cast<const vec3*>(rtcGetGeometryBufferData(rtcGetGeometry(still_, i), RTC_BUFFER_TYPE_VERTEX, 0));
+        RaySurface placed = surface;
+        placed.positions = std::make_shared<const std::vector<vec3>>(was, was + surface.positions->size());
+        for (const vec3& p : *placed.positions) {
+            all.add(p);
+        }
+        RTCGeometry geometry = make(placed, filters[i] != 0);
+        rtcAttachGeometryByID(before_, geometry, unsigned(k));
+        rtcReleaseGeometry(geometry);
+        before_surfaces_.push_back(i);
+    }
+    rtcCommitScene(before_);
+    before_reach_ = reach_of(all);
+    return true;
+}
+
+bool EmbreeTriangles::meets_moved(const vec3& from, const vec3& direction, float tnear, float tfar) const {
+    const auto any = [&](RTCScene scene, const Reach& reach) {
+        if (scene == nullptr || !meets(reach, from, direction, tnear, tfar)) {
+            return false;
+        }
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        RTCRay query;
+        fill(query, from, direction, tnear, tfar, kOpaque | kFilter);
+        rtcOccluded1(scene, &context, &query);
+        return query.tfar < 0.0F;
+    };
+    return any(moved_, moved_reach_) || any(before_, before_reach_);
+}
+
+TriangleHit EmbreeTriangles::nearest_before(const vec3& from, const vec3& direction, float tnear, float tfar) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query;
+    fill(query.ray, from, direction, tnear, tfar, kOpaque | kFilter);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(still_, &context, &query);
+    if (meets(before_reach_, from, direction, tnear, query.ray.tfar)) {
+        take_nearer_of(before_, before_surfaces_, query);
+    }
+    return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? TriangleHit{} : found(query);
 }
 
 bool EmbreeTriangles::blocked_by_moved(RTCRay& query) const {

@@ -21,6 +21,7 @@ struct TriangleHit {
     std::uint32_t triangle = 0;
     float t = 0.0F;
     vec2 barycentric{0.0F};
+    vec3 normal{0.0F}; ///< of the triangle, any length, on its front side
 };
 
 /// Surfaces are known by their index. Each is opaque or filters light (lets some of it through); queries are safe from any
@@ -39,6 +40,13 @@ public:
     void move(std::span<const std::uint32_t> moved, std::span<const RaySurface> surfaces,
               const std::vector<std::uint8_t>& filters, std::span<const Box3> bounds);
     [[nodiscard]] bool anything_moved() const { return moved_ != nullptr; } ///< since build()
+    /// Builds what moved where it stood when build() was called, as far as that was not done yet; no query may run. False
+    /// where it is no longer known.
+    bool remember(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters);
+    /// Something that moved lies on the ray where it is now or, after remember(), where it was.
+    [[nodiscard]] bool meets_moved(const vec3& from, const vec3& direction, float tnear, float tfar) const;
+    /// As nearest() before anything moved; after remember().
+    [[nodiscard]] TriangleHit nearest_before(const vec3& from, const vec3& direction, float tnear, float tfar) const;
 
     /// Among all surfaces or among those that filter light. Call it in one place, where it is compiled in.
     [[nodiscard]] TriangleHit nearest(bool only_filters, const vec3& from, const vec3& direction, float tnear,
@@ -56,7 +64,7 @@ public:
         if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
             return {};
         }
-        return {query.hit.geomID, query.hit.primID, query.ray.tfar, {query.hit.u, query.hit.v}};
+        return found(query);
     }
     /// Anything opaque on the ray?
     [[nodiscard]] bool blocked(const vec3& from, const vec3& direction, float tnear, float tfar) const {
@@ -99,8 +107,17 @@ private:
         ray.flags = 0;
     }
 
+    static TriangleHit found(const RTCRayHit& query) {
+        return {query.hit.geomID,
+                query.hit.primID,
+                query.ray.tfar,
+                {query.hit.u, query.hit.v},
+                {query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z}};
+    }
+
     // What was moved, after the rest was asked: apart, to stay out of the way where nothing ever was.
     void take_nearer_of_moved(RTCRayHit& query) const;
+    void take_nearer_of(RTCScene scene, const std::vector<std::uint32_t>& numbers, RTCRayHit& query) const;
     [[nodiscard]] bool blocked_by_moved(RTCRay& query) const;
 
     static bool meets(const Reach& reach, const vec3& origin, const vec3& direction, float tnear, float tfar);
@@ -113,6 +130,10 @@ private:
     RTCScene still_ = nullptr;
     RTCScene still_filters_ = nullptr;           // what lets light through, by itself: most rays meet none of it
     RTCScene moved_ = nullptr;                   // none until something moves
+    RTCScene before_ = nullptr;                  // what moved where it was built; none until somebody looks back
+    std::vector<std::uint32_t> before_surfaces_; // by their number in `before_`
+    Reach before_reach_;
+    bool rebuilt_ = false;                       // since then: where things stood is lost
     std::vector<std::uint32_t> moved_surfaces_;  // by their number in `moved_`
     std::vector<std::uint32_t> number_in_moved_; // by surface; Hit::kNone = it stands still
     Reach moved_reach_;

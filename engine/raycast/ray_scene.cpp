@@ -426,6 +426,36 @@ struct RayScene::Impl {
         return embree.blocked(from, direction, tnear, tfar);
     }
 
+    // Holes of cut-outs are passed through.
+    Hit nearest(const RayScene& self, const Ray& ray, bool before) {
+        float tnear = 0.0F;
+        for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
+            const Hit h = before ? hit_before(ray.origin, ray.direction, tnear, ray.tmax)
+                                 : hit(false, ray.origin, ray.direction, tnear, ray.tmax);
+            if (!h) {
+                return h;
+            }
+            const Material& m = *materials[h.surface];
+            if (m.alpha_mode != Material::Alpha::Mask ||
+                self.base_color(h.surface, h.triangle, h.barycentric).a >= m.alpha_cutoff) {
+                return h;
+            }
+            tnear = h.t + std::max(1e-5F, 1e-6F * h.t);
+        }
+        return {};
+    }
+
+    Hit hit_before(const vec3& from, const vec3& direction, float tnear, float tfar) {
+        count_ray();
+        const TriangleHit met = embree.nearest_before(from, direction, tnear, tfar);
+        Hit out{met.surface, met.triangle, met.t, met.barycentric};
+        if (out) {
+            out.geometric_normal = glm::normalize(met.normal);
+            out.front = glm::dot(out.geometric_normal, direction) < 0.0F;
+        }
+        return out;
+    }
+
     Hit hit(bool only_filters, const vec3& from, const vec3& direction, float tnear, float tfar) {
         count_ray();
         const TriangleHit met = embree.nearest(only_filters, from, direction, tnear, tfar);
@@ -542,20 +572,11 @@ std::uint64_t RayScene::rays_traced() const {
     return sum;
 }
 
-Hit RayScene::nearest(const Ray& ray) const {
-    float tnear = 0.0F;
-    for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
-        const Hit h = impl_->hit(false, ray.origin, ray.direction, tnear, ray.tmax);
-        if (!h) {
-            return h;
-        }
-        const Material& m = *impl_->materials[h.surface];
-        if (m.alpha_mode != Material::Alpha::Mask || base_color(h.surface, h.triangle, h.barycentric).a >= m.alpha_cutoff) {
-            return h;
-        }
-        tnear = h.t + std::max(1e-5F, 1e-6F * h.t);
-    }
-    return {};
+Hit RayScene::nearest(const Ray& ray) const { return impl_->nearest(*this, ray, false); }
+Hit RayScene::nearest_before(const Ray& ray) const { return impl_->nearest(*this, ray, true); }
+bool RayScene::look_back() { return impl_->embree.remember(impl_->surfaces, impl_->filters); }
+bool RayScene::meets_moved(const Ray& ray) const {
+    return impl_->embree.meets_moved(ray.origin, ray.direction, 0.0F, ray.tmax);
 }
 
 bool RayScene::occluded(const vec3& from, const vec3& to) const { return max_component(transmittance(from, to)) <= 0.0F; }

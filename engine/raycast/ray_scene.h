@@ -87,6 +87,9 @@ public:
     /// Makes rays as fast as in a scene that is built anew, where moves left them a little slower: takes most of the time of
     /// building, and the next move of anything is a first one again. Answers stay; no query may run.
     void settle();
+    /// Makes ready for looking back at how all stood before the moves since the scene was built or settled; call it after
+    /// moves, while no query runs. False where that is no longer known, after very much was moved.
+    [[nodiscard]] bool look_back();
 
     [[nodiscard]] const std::vector<RaySurface>& surfaces() const;
     /// World position of engine (0,0,0): the centre of the scene's bounds, rounded to whole metres.
@@ -99,6 +102,12 @@ public:
 
     /// Nearest hit of surfaces that a mirror, lens or camera ray can meet (alpha cut-outs are passed through).
     [[nodiscard]] Hit nearest(const Ray& ray) const;
+    /// The ray meets something that moved, where it is now or (after look_back()) where it stood: what it sees may have
+    /// changed. Far cheaper than nearest().
+    [[nodiscard]] bool meets_moved(const Ray& ray) const;
+    /// nearest() as it was before the moves; needs look_back(). The hit's normal is that of before; the positions and
+    /// normals that this gives for hits are always those of now.
+    [[nodiscard]] Hit nearest_before(const Ray& ray) const;
     /// True when anything opaque lies strictly between two points (cut-outs pass, glass passes). Both ends are pulled in by
     /// a length proportional to the rounding error there, so that the surfaces they lie on do not count.
     [[nodiscard]] bool occluded(const vec3& from, const vec3& to) const;

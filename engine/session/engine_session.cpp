@@ -113,7 +113,7 @@ struct EngineSession::Impl {
     /// Called and left with the lock held; the solve itself runs without.
     void solve_once(std::unique_lock<std::mutex>& lock) {
         const QualityScheduler::Kind kind = scheduler.kind();
-        const bool unsettled = scheduler.unsettled();
+        const bool has_light = scheduler.unsettled() || scheduler.refining();
         scheduler.on_started(kind);
         running_stop = StopFlag();
         started = Clock::now();
@@ -123,7 +123,7 @@ struct EngineSession::Impl {
         const StopFlag stop = running_stop;
         lock.unlock();
         tell();
-        Ended ended = solve_guarded(stop, kind, unsettled);
+        Ended ended = solve_guarded(stop, kind, has_light);
         const bool updatable = ended.picture && ended.picture->updatable;
         lock.lock();
         if (ended.picture && !scheduler.abandoned() && ended.picture != latest) {
@@ -137,7 +137,7 @@ struct EngineSession::Impl {
         last_duration = Clock::now() - started;
     }
 
-    Ended solve_guarded(const StopFlag& stop, QualityScheduler::Kind kind, bool unsettled) {
+    Ended solve_guarded(const StopFlag& stop, QualityScheduler::Kind kind, bool has_light) {
         using Outcome = QualityScheduler::Outcome;
         RunContext context;
         context.stop = stop;
@@ -148,18 +148,19 @@ struct EngineSession::Impl {
         options.revision = revision;
         options.keep_for_updates = true;
         options.hurried = kind == QualityScheduler::Kind::Hurried;
-        options.skip_first_picture = unsettled;
+        options.settle = kind == QualityScheduler::Kind::Settle;
+        options.skip_first_picture = has_light;
         try {
             auto result = solve(scene, options, context, [&](const Picture& picture) { on_snapshot(picture); });
             if (!result) {
-                const Outcome failed = options.hurried ? Outcome::Unfit : Outcome::Failed;
+                const Outcome failed = kind == QualityScheduler::Kind::Full ? Outcome::Failed : Outcome::Unfit;
                 return {stop.stop_requested() ? Outcome::Stopped : failed, nullptr, result.error().message()};
             }
             if (*result == nullptr) {
                 return {Outcome::Failed, nullptr, "The light simulation returned no picture."};
             }
-            if (options.hurried && (*result)->statistics.update.degraded) {
-                return {Outcome::Hurried, *result, {}};
+            if (kind != QualityScheduler::Kind::Full && !(*result)->final) {
+                return {options.hurried ? Outcome::Hurried : Outcome::Settled, *result, {}};
             }
             return {(*result)->final ? Outcome::Final : Outcome::Stopped, *result, {}};
         } catch (const std::bad_alloc&) {
@@ -275,6 +276,7 @@ struct EngineSession::Impl {
         }
         const bool solving = out.state == SessionStatus::State::Solving;
         out.moving = scheduler.moving();
+        out.refining = scheduler.refining();
         out.settling = scheduler.unsettled() || (latest != nullptr && latest->statistics.update.degraded);
         out.posted_revision = posted_revision;
         if (latest != nullptr) {

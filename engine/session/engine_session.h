@@ -18,7 +18,8 @@ struct SessionStatus {
     std::uint64_t posted_revision = 0; ///< newest edit in the mailbox or applied
     std::uint64_t shown_revision = 0;  ///< of latest(); lower = the picture is stale
     bool moving = false;               ///< latest() follows a hand in a hurry
-    bool settling = false;             ///< latest() was made in a hurry, and the full solution is still to come
+    bool settling = false;             ///< latest() was made in a hurry, and better light is still to come
+    bool refining = false;             ///< latest() is an exact update; the full solution is still to come
     std::string phase;                 ///< "visibility", "layers", ...; empty when idle
     double fraction = 0;               ///< 0 to 1
     double elapsed_seconds = 0;

@@ -8,6 +8,7 @@ void QualityScheduler::on_load(bool has_picture, bool complete) {
     needed_ = !has_picture;
     updatable_ = false;
     unsettled_ = false;
+    refining_ = false;
     complete_ = complete;
     cancelled_ = false;
     failed_ = false;
@@ -38,7 +39,7 @@ void QualityScheduler::on_cancel() {
 void QualityScheduler::on_resume() {
     cancelled_ = false;
     failed_ = false;
-    if (running_ ? stopping_ : !complete_) {
+    if (running_ ? stopping_ : !complete_ && !refining_) { // what refines goes on by itself
         needed_ = true;
     }
 }
@@ -60,20 +61,32 @@ void QualityScheduler::on_finished(Outcome outcome, bool updatable) {
     case Outcome::Final:
         updatable_ = updatable;
         unsettled_ = false;
+        refining_ = false;
         if (!needed_) {
             complete_ = true;
             cancelled_ = false; // it was done before it heard
         }
         break;
-    case Outcome::Hurried: unsettled_ = true; break;
+    case Outcome::Hurried:
+        unsettled_ = true;
+        refining_ = false;
+        break;
+    case Outcome::Settled:
+        unsettled_ = false;
+        refining_ = true;
+        break;
     case Outcome::Unfit:
         updatable_ = false;
+        refining_ = false;
         needed_ = true;
         break;
     case Outcome::Stopped:
-        unsettled_ = unsettled_ || kind == Kind::Hurried;
-        if (cancelled_) {
+        unsettled_ = unsettled_ || kind != Kind::Full;
+        if (cancelled_ && !unsettled_ && !refining_) {
             needed_ = true; // still wanted, once it may go on
+        }
+        if (kind == Kind::Full && !cancelled_ && !needed_) {
+            refining_ = false; // it stopped by itself: nothing better is to be had
         }
         break;
     case Outcome::Failed:
@@ -89,8 +102,15 @@ void QualityScheduler::on_failure() {
     needed_ = true;
 }
 
+QualityScheduler::Kind QualityScheduler::kind() const {
+    if (!updatable_ || !(needed_ || unsettled_)) {
+        return Kind::Full;
+    }
+    return needed_ && in_gesture_ ? Kind::Hurried : Kind::Settle;
+}
+
 QualityScheduler::Time QualityScheduler::start_time() const {
-    if (running_ || cancelled_ || failed_ || !(needed_ || unsettled_)) {
+    if (running_ || cancelled_ || failed_ || !(needed_ || unsettled_ || refining_)) {
         return Time::max();
     }
     return needed_ || !in_gesture_ ? Time::min() : last_edit_ + kRest;
@@ -119,7 +139,7 @@ QualityScheduler::State QualityScheduler::state() const {
     if (cancelled_) {
         return State::Stopped;
     }
-    return (running_ && !abandoned_) || needed_ || unsettled_ ? State::Solving : State::Idle;
+    return (running_ && !abandoned_) || needed_ || unsettled_ || refining_ ? State::Solving : State::Idle;
 }
 
 } // namespace atrium

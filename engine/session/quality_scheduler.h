@@ -8,8 +8,9 @@
 namespace atrium {
 
 /// One solve at a time, always of the newest scene. Outside a gesture an edit stops a stale solve at once. Within a gesture
-/// light follows by hurried updates, if the engine keeps a complete solution to start from; the full solve comes when the
-/// hand rests or lets go. Without one the running solve goes on until then, so that there is light to see while dragging.
+/// light follows by hurried updates, if the engine keeps a complete solution to start from. When the hand rests or lets go,
+/// and after every single edit, an exact update settles the light, and the full solve comes after it. Without a complete
+/// solution the running solve goes on until the hand rests, so that there is light to see while dragging.
 class QualityScheduler {
 public:
     using Time = RunContext::Clock::time_point;
@@ -19,12 +20,13 @@ public:
 
     enum class Outcome : std::uint8_t {
         Final,   ///< the solution is complete
-        Hurried, ///< an update in a hurry is done: a full solve is still to come
-        Unfit,   ///< the change was not one that can be done in a hurry
+        Hurried, ///< an update in a hurry is done: an exact one is still to come
+        Settled, ///< an exact update is done: a full solve is still to come
+        Unfit,   ///< the change was not one that can be done by an update
         Stopped, ///< it ended early
         Failed
     };
-    enum class Kind : std::uint8_t { Full, Hurried };
+    enum class Kind : std::uint8_t { Full, Hurried, Settle };
     enum class State : std::uint8_t { Idle, Solving, Stopped, Failed };
 
     /// Another document. `has_picture`: it came with a solution, so nothing runs until an edit; `complete`: a final one.
@@ -42,7 +44,7 @@ public:
 
     /// Nothing runs and the newest scene wants a solve, of this kind.
     [[nodiscard]] bool should_start(Time now) const { return start_time() <= now; }
-    [[nodiscard]] Kind kind() const { return needed_ && in_gesture_ && updatable_ ? Kind::Hurried : Kind::Full; }
+    [[nodiscard]] Kind kind() const;
     /// When should_start() will become true if nothing else happens; Time::max() = never.
     [[nodiscard]] Time start_time() const;
     /// The running solve is of no more use.
@@ -56,11 +58,14 @@ public:
     /// The light on show follows a hand that has not let go, or has been followed by no full solve yet.
     [[nodiscard]] bool moving() const { return in_gesture_ && (unsettled_ || running_kind_ == Kind::Hurried); }
     [[nodiscard]] bool unsettled() const { return unsettled_; }
+    /// The light on show is an exact update's; a full solve is to follow or runs.
+    [[nodiscard]] bool refining() const { return refining_; }
 
 private:
     bool running_ = false;
     bool updatable_ = false; ///< hurried updates have something to start from
     bool unsettled_ = false; ///< the newest light was made in a hurry
+    bool refining_ = false;  ///< the newest light is an exact update's
     Kind running_kind_ = Kind::Full;
     bool needed_ = false;    ///< a solve must start after (or instead of) the running one
     bool complete_ = false;  ///< the newest scene has its final solution

@@ -89,6 +89,11 @@ struct ScriptPlayer::Impl {
                 frame.report.update = frame.changed ? update_of(picture, frame.revision) : UpdateStatistics{};
             }
         }
+        if (let_go && !settled && picture != nullptr && status.shown_revision >= status.posted_revision && !status.moving &&
+            !status.settling && !picture->statistics.update.degraded) {
+            settled = seconds(now - *let_go);
+            settled_light = picture->final ? nullptr : picture;
+        }
     }
 
     // ---- the caller's thread ----
@@ -203,28 +208,40 @@ struct ScriptPlayer::Impl {
         {
             const std::lock_guard lock(mutex);
             frames.clear();
+            let_go.reset();
+            settled.reset();
+            settled_light.reset();
         }
         const std::uint64_t before = revision;
         Result<bool> going = true;
         bool waits = true;
-        Clock::time_point let_go;
+        Clock::time_point released;
+        const auto lets_go = [&] { // after the last edit is posted: what is settled before is not its light
+            {
+                const std::lock_guard lock(mutex);
+                let_go = released;
+            }
+            answer_frames();
+        };
         if (const auto* wanted = std::get_if<ScriptDrag>(&edit.value)) {
             going = drag(*wanted);
             waits = wanted->settle;
-            let_go = Clock::now();
+            released = Clock::now();
+            lets_go();
         } else {
             const auto applied = stage.apply(edit);
             if (!applied) {
                 return tl::unexpected(applied.error());
             }
-            let_go = Clock::now();
+            released = Clock::now();
             post(*applied, false);
+            lets_go();
         }
         if (going) {
             const bool finished = *going;
             going = waits ? settle() : all_shown();
             if (going && *going && waits && finished) {
-                report.settle = seconds(Clock::now() - let_go);
+                report.settle = seconds(Clock::now() - released);
             }
             going = going.map([&](bool done) { return done && finished; });
         }
@@ -239,6 +256,8 @@ struct ScriptPlayer::Impl {
         for (const Frame& frame : frames) {
             report.frames.push_back(frame.report);
         }
+        report.settled = settled;
+        report.settled_light = settled_light;
         return report;
     }
 
@@ -249,7 +268,10 @@ struct ScriptPlayer::Impl {
     // Guarded by `mutex`, which is held only to copy state in and out.
     std::mutex mutex;
     std::condition_variable changed;
-    std::vector<Frame> frames; ///< of the edit that is being played
+    std::vector<Frame> frames;               ///< of the edit that is being played
+    std::optional<Clock::time_point> let_go; ///< of the edit that is being played
+    std::optional<double> settled;
+    Picture settled_light;
     std::uint64_t wakes = 0;
     bool running = false; ///< inside a solve
     bool at_rest = true;  ///< no solve since the last time that the session had news

@@ -24,8 +24,10 @@ struct EditReport {
     std::string target;              ///< as the script names it; of undo and redo what they change
     std::vector<FrameReport> frames; ///< one, or one per position of a drag
     std::optional<double> settle;    ///< seconds from the edit, or from the end of the drag, to the complete light
-    UpdateStatistics update;         ///< of the newest light at the end; zero when the edit changes no light
-    bool stopped = false;            ///< the edit, or the light after it, was not finished
+    std::optional<double> settled;   ///< the same to the first light that is not in a hurry
+    std::shared_ptr<const Solution> settled_light; ///< null unless it came before the complete light
+    UpdateStatistics update;                       ///< of the newest light at the end; zero when the edit changes no light
+    bool stopped = false;                          ///< the edit, or the light after it, was not finished
 };
 
 /// Owns a session and the scene as its user sees it. One thread; the solving goes on in the session's own.

@@ -5,6 +5,7 @@
 #include "engine/radiosity/leaf_surroundings.h"
 #include "engine/radiosity/links.h"
 #include "engine/solver/gi_engine_impl.h"
+#include "engine/solver/phase_timer.h"
 
 #include <algorithm>
 #include <chrono>
@@ -17,39 +18,6 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Times the phases of one solve in order.
-class PhaseTimer {
-public:
-    explicit PhaseTimer(Statistics& statistics) : statistics_(statistics) {}
-    void next(const std::string& name) {
-        stop();
-        name_ = name;
-        start_ = Clock::now();
-        start_cpu_ = std::clock();
-    }
-    void stop() {
-        if (name_.empty()) {
-            return;
-        }
-        const double seconds = seconds_since(start_);
-        const double cpu = double(std::clock() - start_cpu_) / CLOCKS_PER_SEC;
-        auto& phases = statistics_.phases;
-        const auto it = std::find_if(phases.begin(), phases.end(), [&](const auto& p) { return p.name == name_; });
-        if (it == phases.end()) {
-            phases.push_back({name_, seconds, 0.0, cpu});
-        } else {
-            it->seconds += seconds;
-            it->cpu_seconds += cpu;
-        }
-        name_.clear();
-    }
-
-private:
-    Statistics& statistics_;
-    std::string name_;
-    Clock::time_point start_;
-    std::clock_t start_cpu_ = 0;
-};
-
 } // namespace
 
 GiEngine::GiEngine() : impl_(std::make_unique<Impl>()) {}
@@ -62,7 +30,7 @@ bool GiEngine::has_solution() const { return impl_->solved; }
 Result<std::shared_ptr<const Solution>>
 GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContext& context,
                 const std::function<void(std::shared_ptr<const Solution>)>& on_snapshot) {
-    if (options.hurried) {
+    if (options.hurried || options.settle) {
         return update(scene, options, context);
     }
     // What drags need of the last complete light stays until this one is complete.
@@ -385,6 +353,8 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         for (const RaySurface& surface : s.rays->surfaces()) {
             s.live->placement.push_back(surface.to_engine);
         }
+        s.live->quality = quality;
+        s.live->light_floor = light_floor;
         s.find_shafts();
     }
     publish(std::move(set), true);

@@ -12,6 +12,11 @@
 
 namespace atrium {
 
+class SightChange;
+struct LightChange;
+struct Hit;
+struct VertexChange;
+
 struct SolveOptions {
     SolverSettings::Quality quality = SolverSettings::Quality::Normal;
     std::uint32_t seed = 1;
@@ -21,7 +26,8 @@ struct SolveOptions {
     std::uint32_t particles = 0; ///< emitted at most; 0 = what the quality stands for
     /// update() will follow: the complete solution keeps what that needs, and stays in place until the next is complete.
     bool keep_for_updates = false;
-    bool hurried = false; ///< update() is asked for: solve() hands on to it
+    bool hurried = false; ///< solve() hands on to update()
+    bool settle = false;  ///< likewise, and that is not in a hurry: as exact as a new solution, or nearly
     /// Light is on show that is better than a first, coarse picture: none is made.
     bool skip_first_picture = false;
 };
@@ -49,11 +55,12 @@ public:
     solve(const Scene& scene, const SolveOptions& options, const RunContext& context,
           const std::function<void(std::shared_ptr<const Solution>)>& on_snapshot = {});
 
-    /// Light after objects moved, in a hurry: direct light and caustics are looked at again where the change reaches,
-    /// starting from the last complete solution (of a solve with keep_for_updates) and the updates since; reflected light
-    /// stays as it is but for what moved. Marked in Solution::statistics.update. An error where more than placements
-    /// changed, lamps or windows moved, or there is no complete solution: then only solve() helps. Stopped by the context:
-    /// an error too; what was left undone is remembered and done by the next update.
+    /// Light after objects moved, in a hurry or (SolveOptions::settle) nearly as exact as a new solution: direct light,
+    /// caustics and sight between surfaces are looked at again where the change reaches, starting from the last complete
+    /// solution (of a solve with keep_for_updates) and the updates since. Never `final`. Marked in
+    /// Solution::statistics.update. An error where more than placements changed, lamps or windows moved, or there is no
+    /// complete solution: then only solve() helps. Stopped by the context: an error too; what was left undone is remembered
+    /// and done by the next update.
     Result<std::shared_ptr<const Solution>> update(const Scene& scene, const SolveOptions& options,
                                                    const RunContext& context);
     /// A complete solution is there for update() to start from.
@@ -65,8 +72,15 @@ public:
 
 private:
     struct Impl;
-    static void reflect_change(Impl& impl, const RunContext& context);
-    static void show_direct_light(Impl& impl, const RunContext& context);
+    static void reflect_change(Impl& impl, bool in_a_hurry, const RunContext& context);
+    static void cover_vertices(Impl& impl, const RunContext& context);
+    static Rgb sent_back(const Impl& impl, const Hit& hit);
+    static std::vector<Rgb> solve_with_new_sight(Impl& impl, const SightChange& sight, bool in_a_hurry,
+                                                 const RunContext& context);
+    static std::vector<std::vector<VertexChange>> look_from_vertices(Impl& impl, const SightChange& sight, bool in_a_hurry,
+                                                                     const RunContext& context);
+    static void show_direct_light(Impl& impl, const LightChange& change, const RunContext& context);
+    static void light_leaves_again(Impl& impl, const LightChange& change, const RunContext& context);
     std::unique_ptr<Impl> impl_;
 };
 

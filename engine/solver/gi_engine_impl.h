@@ -14,6 +14,7 @@
 #include "engine/radiosity/light_shafts.h"
 #include "engine/radiosity/mirror_light.h"
 #include "engine/radiosity/point_gather.h"
+#include "engine/radiosity/sight_change.h"
 #include "engine/raycast/ray_scene.h"
 #include "engine/raycast/scene_charts.h"
 #include "engine/solver/gi_engine.h"
@@ -21,6 +22,7 @@
 #include "engine/solver/reflected_change.h"
 
 #include <algorithm>
+#include <map>
 
 namespace atrium {
 
@@ -49,11 +51,15 @@ struct GiEngine::Impl {
         LayerSet layers;                      ///< as shown, without `complete`
         std::vector<dmat4> placement;         ///< per surface
         std::shared_ptr<const Solution> shown;
-        std::unique_ptr<LeafExchange> exchange;     ///< which leaves light which
-        std::unique_ptr<ReflectedChange> reflected; ///< null until something moves
-        std::vector<bool> away;                     ///< per surface: moved since the complete solution
-        LightChange owed;                           ///< what a stopped update left undone
-        std::vector<std::uint8_t> new_maps;         ///< per surface: its layer does not show its light maps yet
+        std::unique_ptr<LeafExchange> exchange;          ///< which leaves light which
+        std::unique_ptr<ReflectedChange> reflected;      ///< null until something moves
+        std::map<std::uint32_t, Displacement> displaced; ///< by surface: what moved since the complete solution
+        LightChange owed;                                ///< what a stopped update left undone
+        std::vector<std::uint8_t> new_maps;              ///< per surface: its layer does not show its light maps yet
+        QualitySettings quality;
+        float light_floor = 0.0F;              ///< lux: what counts as dark
+        std::vector<Box3> settled;             ///< where what had moved stood when all was exact last
+        std::vector<std::uint8_t> leaf_looked; ///< per element: its direct light was sampled again then
     };
     std::unique_ptr<Live> live;
     CausticSettings caustic_settings;

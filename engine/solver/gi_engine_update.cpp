@@ -1,6 +1,7 @@
 // Light that follows the hand: what GiEngine does while objects move.
 #include "engine/optics/specular.h"
 #include "engine/solver/gi_engine_impl.h"
+#include "engine/solver/phase_timer.h"
 
 #include <algorithm>
 #include <chrono>
@@ -25,6 +26,17 @@ std::vector<Box3> boxes_of(std::span<const MovedSurface> moved) {
         out = {before, after};
     }
     return out;
+}
+
+// Of very many boxes the one around all.
+void join_boxes(std::vector<Box3>& boxes) {
+    if (boxes.size() > kMostBoxes) {
+        Box3 all;
+        for (const Box3& b : boxes) {
+            all.add(b);
+        }
+        boxes = {all};
+    }
 }
 
 // Charts go with their surface; their coordinates and tiles stay. False where it was stretched.
@@ -85,32 +97,38 @@ private:
 
 } // namespace
 
-// What surfaces whose direct light changed send on now, between leaves that see each other as they did before the drag.
-void GiEngine::reflect_change(Impl& s, const RunContext& context) {
+// What lies on what now: vertices by the boxes of the change, and on what moved.
+void GiEngine::cover_vertices(Impl& s, const RunContext& context) {
     Impl::Live& live = *s.live;
-    if (!live.reflected) {
-        live.reflected = std::make_unique<ReflectedChange>(s.hierarchy, *s.rays, live.layers);
-    }
-    const std::vector<std::uint32_t>& leaves = live.exchange->leaves();
-    parallel_chunks(leaves.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
+    const float reach = live.quality.layers.cover_reach;
+    parallel_chunks(live.layers.places.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
-            Element& e = s.hierarchy.elements[leaves[i]];
-            // What moved is not where its leaves are.
-            if (e.kind == Element::Kind::Patch && live.new_maps[e.surface] != 0 && !live.away[e.surface]) {
-                double spread = 0.0;
-                (void)s.light_from_map(e, spread);
+            VertexPlaces& places = live.layers.places[i];
+            const bool moved = live.owed.moved[places.surface] != 0;
+            for (const bool back : {false, true}) {
+                const std::vector<SurfacePoint>& side = places.side(back);
+                for (std::size_t v = 0; v < side.size(); ++v) {
+                    const vec3& p = side[v].position;
+                    const bool near =
+                        side[v].normal != vec3(0.0F) &&
+                        (moved || std::any_of(live.owed.boxes.begin(), live.owed.boxes.end(), [&](const Box3& box) {
+                             const vec3 off = glm::max(glm::max(box.min - p, p - box.max), vec3(0.0F));
+                             return glm::length(off) <= reach;
+                         }));
+                    if (near) {
+                        const auto bit = std::uint8_t(back ? 2U * VertexPlaces::kCovered : VertexPlaces::kCovered);
+                        const bool covered = is_covered(*s.rays, p, side[v].normal, reach);
+                        places.state[v] = std::uint8_t(covered ? places.state[v] | bit : places.state[v] & ~bit);
+                    }
+                }
             }
         }
     });
-    constexpr double kTolerance = 0.01;
-    constexpr int kMostSweeps = 8;
-    solve_radiosity(s.hierarchy, *live.exchange, kTolerance, kMostSweeps, context);
 }
 
 // Direct light on the vertices that a change may reach and that no chart holds, and the light maps that are new.
-void GiEngine::show_direct_light(Impl& s, const RunContext& context) {
+void GiEngine::show_direct_light(Impl& s, const LightChange& change, const RunContext& context) {
     Impl::Live& live = *s.live;
-    const LightChange& change = live.owed;
     struct Look {
         float angle = 0.0F; ///< how large what moved looks from there
         std::uint32_t layer = 0, vertex = 0;
@@ -123,22 +141,28 @@ void GiEngine::show_direct_light(Impl& s, const RunContext& context) {
             const VertexPlaces& places = live.layers.places[i];
             const bool moved = change.moved[places.surface] != 0;
             Box3 bounds;
-            for (const SurfacePoint& p : places.front) {
-                if (p.normal != vec3(0.0F)) {
-                    bounds.add(p.position);
+            for (std::size_t k = 0; k < places.front.size(); ++k) {
+                if (places.shows_direct(k, false)) {
+                    bounds.add(places.front[k].position);
+                }
+                for (const bool back : {false, true}) {
+                    if (change.exact && places.stale(k, back) && places.shows_direct(k, back)) {
+                        found[i].push_back({2.0F, std::uint32_t(i), std::uint32_t(k), back, Rgb(0.0F)});
+                    }
                 }
             }
             for (const Box3& box : change.boxes) {
                 if (!moved && (bounds.empty() || !s.direct_light_touched(bounds.centre(), 0.5F * bounds.diagonal(), box))) {
                     continue;
                 }
-                for (const auto* side : {&places.front, &places.back}) {
-                    for (std::uint32_t k = 0; k < side->size(); ++k) {
-                        const SurfacePoint& p = (*side)[k];
-                        if (p.normal != vec3(0.0F) && (moved || s.direct_light_touched(p.position, 0.0F, box))) {
+                for (const bool back : {false, true}) {
+                    const std::vector<SurfacePoint>& side = places.side(back);
+                    for (std::uint32_t k = 0; k < side.size(); ++k) {
+                        const SurfacePoint& p = side[k];
+                        if (places.shows_direct(k, back) && (moved || s.direct_light_touched(p.position, 0.0F, box))) {
                             const float distance = glm::length(box.centre() - p.position);
-                            found[i].push_back({box.diagonal() / std::max(distance, 1e-3F), std::uint32_t(i), k,
-                                                side == &places.back, Rgb(0.0F)});
+                            found[i].push_back(
+                                {box.diagonal() / std::max(distance, 1e-3F), std::uint32_t(i), k, back, Rgb(0.0F)});
                         }
                     }
                 }
@@ -154,22 +178,30 @@ void GiEngine::show_direct_light(Impl& s, const RunContext& context) {
               [&](const Look& a, const Look& b) { return place(a) != place(b) ? place(a) < place(b) : a.angle > b.angle; });
     looks.erase(std::unique(looks.begin(), looks.end(), [&](const Look& a, const Look& b) { return place(a) == place(b); }),
                 looks.end());
+    const auto mark = [&](bool stale) {
+        for (const Look& l : looks) {
+            live.layers.places[l.layer].set_stale(l.vertex, l.back, stale);
+        }
+    };
+    mark(true); // until all of them were really looked at
     // Of very many those from where most is seen of what moved; the others wait for the full solution.
     constexpr std::size_t kMost = 3000;
-    if (looks.size() > kMost) {
+    if (!change.exact && looks.size() > kMost) {
         std::stable_sort(looks.begin(), looks.end(), [](const Look& a, const Look& b) { return a.angle > b.angle; });
         looks.resize(kMost);
         std::sort(looks.begin(), looks.end(), [&](const Look& a, const Look& b) { return place(a) < place(b); });
     }
     parallel_chunks(looks.size(), 16, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
-            const VertexPlaces& places = live.layers.places[looks[i].layer];
-            const SurfacePoint& p = (looks[i].back ? places.back : places.front)[looks[i].vertex];
+            const SurfacePoint& p = live.layers.places[looks[i].layer].side(looks[i].back)[looks[i].vertex];
             looks[i].light = s.direct_light(p.position, p.normal, s.field.direct).irradiance;
         }
     });
     if (context.should_stop()) {
         return;
+    }
+    if (change.exact) {
+        mark(false);
     }
     std::size_t next = 0;
     for (std::uint32_t i = 0; i < live.layers.surfaces.size(); ++i) {
@@ -246,8 +278,8 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
             }
         }
         change.moved[m.surface] = 1;
-        live.away.resize(s.rays->surfaces().size(), false);
-        live.away[m.surface] = true;
+        s.hierarchy.follow(m.surface, motion);
+        live.displaced.try_emplace(m.surface, Displacement{m.before, m.after}).first->second.now = m.after;
         mirror_moved = mirror_moved || is_specular(material);
     }
     if (mirror_moved && s.mirrors) {
@@ -261,16 +293,30 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     auto solution = std::make_shared<Solution>(*live.shown);
     UpdateStatistics& report = solution->statistics.update;
     report = {};
-    report.degraded = true;
+    report.degraded = !options.settle;
 
     context.progress("direct", 0.1);
-    const InAHurry fewer_rays(s.field.direct);
+    PhaseTimer timer(solution->statistics);
+    solution->statistics.phases.clear();
+    timer.next("direct");
+    std::optional<InAHurry> fewer_rays;
+    LightChange look_at = change;
+    look_at.exact = options.settle;
+    if (options.settle) {
+        for (const auto& [surface, d] : live.displaced) {
+            look_at.boxes.insert(look_at.boxes.end(), {d.before, d.now});
+            look_at.moved[surface] = 1;
+        }
+        look_at.boxes.insert(look_at.boxes.end(), live.settled.begin(), live.settled.end());
+        join_boxes(look_at.boxes);
+    } else {
+        fewer_rays.emplace(s.field.direct);
+    }
     live.new_maps.resize(s.rays->surfaces().size(), 0);
-    live.away.resize(s.rays->surfaces().size(), false);
     RepairReport repaired;
     repaired.complete = true;
     if (live.maps) {
-        repaired = live.maps->repair(change, s.maps, context);
+        repaired = live.maps->repair(look_at, s.maps, context);
     }
     for (const std::uint32_t surface : repaired.surfaces) {
         live.new_maps[surface] = 1;
@@ -278,13 +324,20 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     if (!repaired.complete) {
         return fail("", "", "stopped before the light had followed", "The next update goes on");
     }
+    cover_vertices(s, context);
     if (live.exchange) {
         context.progress("gather", 0.5);
-        reflect_change(s, context);
+        timer.next("gather");
+        light_leaves_again(s, look_at, context);
+        reflect_change(s, !options.settle, context);
+        if (context.should_stop()) {
+            return fail("", "", "stopped before the light had followed", "The next update goes on");
+        }
     }
     ParticleUpdate particles;
     if (s.particles) {
         context.progress("particles", 0.6);
+        timer.next("particles");
         std::vector<std::uint32_t> moved_surfaces;
         for (std::uint32_t i = 0; i < change.moved.size(); ++i) {
             if (change.moved[i] != 0) {
@@ -305,24 +358,30 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         report.particles_share = particles.share;
         report.links_visited = s.particles->links().size();
         report.links_changed = particles.links;
+        timer.next("caustics");
         const CausticReuse reuse{s.caustics, particles.surfaces};
         s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse);
     }
 
     context.progress("layers", 0.8);
+    timer.next("layers");
 
-    show_direct_light(s, context);
+    show_direct_light(s, look_at, context);
     if (context.should_stop()) {
         return fail("", "", "stopped before the light had followed", "The next update goes on");
-    }
-    if (live.reflected) {
-        live.reflected->add_to(s.hierarchy, live.layers.surfaces);
     }
     if (s.particles) {
         attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics);
     }
     change = {};
     live.new_maps.clear();
+    if (options.settle) {
+        live.settled.clear();
+        for (const auto& [surface, d] : live.displaced) {
+            live.settled.push_back(d.now);
+        }
+        join_boxes(live.settled);
+    }
     s.mirrors_before.reset();
     s.mirror_shafts_before = {};
     solution->revision = options.revision;
@@ -330,6 +389,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     solution->surfaces = live.layers.surfaces;
     solution->caustic_records = s.caustics.records;
     solution->statistics.converged = false;
+    timer.stop();
     solution->statistics.rays = s.rays->rays_traced() - rays_before;
     solution->statistics.time.solve = seconds_since_start();
     solution->statistics.time.total = solution->statistics.time.solve;

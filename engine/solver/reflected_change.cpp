@@ -53,49 +53,106 @@ ReflectedChange::ReflectedChange(const Hierarchy& h, const RayScene& rays, const
     }
 }
 
-// Mean change of the triangles around each vertex, by area. False where it is only a trace.
-bool ReflectedChange::changed(const Hierarchy& h, const std::vector<Rgb>& before, const DisplayMesh& mesh, const Side& side,
-                              float trace, std::vector<Rgb>& out) {
-    bool any = false;
-    for (const std::uint32_t leaf : side.leaf) {
-        any = any || (leaf != Element::kNone && luminance(glm::abs(h.elements[leaf].irradiance - before[leaf])) > trace);
-    }
+// Mean change of the triangles around each vertex, by area; nothing where all of it is only a trace.
+std::vector<ReflectedChange::OfVertex> ReflectedChange::of_vertices(const Hierarchy& h, const std::vector<Rgb>& beside,
+                                                                    const DisplayMesh& mesh, std::size_t layer,
+                                                                    bool back) const {
+    const Side& side = back ? surfaces_[layer].back : surfaces_[layer].front;
+    std::vector<OfVertex> out(side.base.size());
+    const bool any = std::any_of(side.leaf.begin(), side.leaf.end(), [&](std::uint32_t leaf) {
+        return leaf != Element::kNone && luminance(glm::abs(h.elements[leaf].irradiance - before_[leaf])) > trace_;
+    });
     if (!any) {
-        return false;
+        return out;
     }
-    std::vector<Rgb> sum(side.base.size(), Rgb(0.0F));
-    std::vector<float> area(side.base.size(), 0.0F);
     for (std::size_t t = 0; t < side.leaf.size(); ++t) {
-        if (side.leaf[t] == Element::kNone) {
+        const std::uint32_t leaf = side.leaf[t];
+        if (leaf == Element::kNone) {
             continue;
         }
-        const Rgb change = h.elements[side.leaf[t]].irradiance - before[side.leaf[t]];
+        const Rgb all = h.elements[leaf].irradiance - before_[leaf];
+        const Rgb sight = beside.empty() ? Rgb(0.0F) : beside[leaf];
         const std::uint32_t* v = &mesh.indices[3 * t];
         const float own = glm::length(
             glm::cross(mesh.positions[v[1]] - mesh.positions[v[0]], mesh.positions[v[2]] - mesh.positions[v[0]]));
         for (int k = 0; k < 3; ++k) {
-            sum[v[k]] += change * own;
-            area[v[k]] += own;
+            out[v[k]].all += all * own;
+            out[v[k]].sight += sight * own;
+            out[v[k]].area += own;
         }
     }
-    out = side.base;
-    for (std::size_t v = 0; v < out.size(); ++v) {
-        if (area[v] > 0.0F) {
-            out[v] = glm::max(out[v] + sum[v] / area[v], Rgb(0.0F));
+    for (OfVertex& v : out) {
+        if (v.area > 0.0F) {
+            v.all /= v.area;
+            v.sight /= v.area;
         }
     }
-    return true;
+    return out;
 }
 
-std::size_t ReflectedChange::add_to(const Hierarchy& h, std::vector<std::shared_ptr<const SurfaceLayer>>& layers) const {
+// The leaves' word, but for what a vertex knows itself.
+void ReflectedChange::changed(const Hierarchy& h, const std::vector<Rgb>& beside, const DisplayMesh& mesh, std::size_t layer,
+                              const std::vector<VertexChange>& known, bool back, std::vector<Rgb>& out) const {
+    const Side& side = back ? surfaces_[layer].back : surfaces_[layer].front;
+    out = side.base;
+    const std::vector<OfVertex> said = of_vertices(h, beside, mesh, layer, back);
+    std::vector<std::uint8_t> covered(out.size(), 0);
+    bool any_covered = false;
+    auto next = known.begin();
+    for (std::uint32_t v = 0; v < out.size(); ++v) {
+        while (next != known.end() && (next->vertex < v || (next->vertex == v && next->back != back))) {
+            ++next;
+        }
+        const bool knows = next != known.end() && next->vertex == v;
+        if (knows && next->kind != VertexChange::Kind::Sight) {
+            out[v] = next->light;
+            if (next->kind == VertexChange::Kind::Covered) {
+                covered[v] = 1;
+                any_covered = true;
+            }
+            continue;
+        }
+        const Rgb change = knows ? said[v].all - said[v].sight : said[v].all;
+        out[v] = glm::max(out[v] + change + (knows ? next->light : Rgb(0.0F)), Rgb(0.0F));
+    }
+    // From the rim inwards.
+    for (; any_covered;) {
+        any_covered = false;
+        std::vector<OfVertex> around(out.size());
+        for (std::size_t t = 0; t < side.leaf.size(); ++t) {
+            const std::uint32_t* v = &mesh.indices[3 * t];
+            for (int k = 0; k < 3; ++k) {
+                for (int j = 0; j < 3; ++j) {
+                    if (covered[v[k]] != 0 && covered[v[j]] == 0) {
+                        around[v[k]].all += out[v[j]];
+                        around[v[k]].area += 1.0F;
+                    }
+                }
+            }
+        }
+        for (std::uint32_t v = 0; v < out.size(); ++v) {
+            if (around[v].area > 0.0F) {
+                out[v] = around[v].all / around[v].area;
+                covered[v] = 0;
+                any_covered = true;
+            }
+        }
+    }
+}
+
+std::size_t ReflectedChange::add_to(const Hierarchy& h, const std::vector<Rgb>& beside,
+                                    const std::vector<std::vector<VertexChange>>& known,
+                                    std::vector<std::shared_ptr<const SurfaceLayer>>& layers) const {
+    static const std::vector<VertexChange> kNothing;
     std::vector<std::uint8_t> new_ones(layers.size(), 0);
     parallel_chunks(layers.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const SurfaceLayer& old = *layers[i];
-            std::vector<Rgb> front = surfaces_[i].front.base, back = surfaces_[i].back.base;
-            (void)changed(h, before_, *old.mesh, surfaces_[i].front, trace_, front);
+            const std::vector<VertexChange>& of_layer = known.empty() ? kNothing : known[i];
+            std::vector<Rgb> front, back;
+            changed(h, beside, *old.mesh, i, of_layer, false, front);
             if (old.has_back()) {
-                (void)changed(h, before_, *old.mesh, surfaces_[i].back, trace_, back);
+                changed(h, beside, *old.mesh, i, of_layer, true, back);
             }
             if (front != old.irradiance_front || back != old.irradiance_back) {
                 auto layer = std::make_shared<SurfaceLayer>(old);

@@ -11,6 +11,19 @@
 
 namespace atrium {
 
+/// What is known of one vertex itself.
+struct VertexChange {
+    std::uint32_t vertex = 0;
+    bool back = false;
+    enum class Kind : std::uint8_t {
+        Sight,  ///< `light` is what changed sight makes of its reflected light
+        Whole,  ///< `light` is all of its reflected light
+        Covered ///< something came to lie on it: it takes its neighbours' light
+    };
+    Kind kind = Kind::Sight;
+    Rgb light{0.0F}; ///< lux
+};
+
 /// Starts from a complete solution, in which vertices are more exact than leaves: only differences of leaves are added to
 /// them. Engine thread; parallel inside.
 class ReflectedChange {
@@ -19,8 +32,24 @@ public:
     /// add_to().
     ReflectedChange(const Hierarchy& hierarchy, const RayScene& rays, const LayerSet& layers);
 
+    /// What the leaves say of the vertices of a layer's side, lux: the whole change, and what of it comes from changed
+    /// sight.
+    struct OfVertex {
+        Rgb all{0.0F}, sight{0.0F};
+        float area = 0.0F; ///< of the triangles around; 0 = nothing is known
+    };
+    [[nodiscard]] std::vector<OfVertex> of_vertices(const Hierarchy& hierarchy, const std::vector<Rgb>& beside,
+                                                    const DisplayMesh& mesh, std::size_t layer, bool back) const;
+    /// Irradiance in the complete solution, lux per vertex.
+    [[nodiscard]] const std::vector<Rgb>& base(std::size_t layer, bool back) const {
+        return back ? surfaces_[layer].back.base : surfaces_[layer].front.base;
+    }
     /// Puts base irradiance + change of the leaves' irradiance on layers where it is more than a trace; the number of these.
-    std::size_t add_to(const Hierarchy& hierarchy, std::vector<std::shared_ptr<const SurfaceLayer>>& layers) const;
+    /// `beside` = per element, what of its leaves' irradiance changed sight made (empty: none); `known` = per layer,
+    /// vertices that know better (empty: none), in order of vertex and side.
+    std::size_t add_to(const Hierarchy& hierarchy, const std::vector<Rgb>& beside,
+                       const std::vector<std::vector<VertexChange>>& known,
+                       std::vector<std::shared_ptr<const SurfaceLayer>>& layers) const;
     [[nodiscard]] std::size_t memory_bytes() const;
 
 private:
@@ -31,8 +60,8 @@ private:
     struct Surface {
         Side front, back;
     };
-    static bool changed(const Hierarchy& hierarchy, const std::vector<Rgb>& before, const DisplayMesh& mesh,
-                        const Side& side, float trace, std::vector<Rgb>& out);
+    void changed(const Hierarchy& hierarchy, const std::vector<Rgb>& beside, const DisplayMesh& mesh, std::size_t layer,
+                 const std::vector<VertexChange>& known, bool back, std::vector<Rgb>& out) const;
 
     std::vector<Rgb> before_; ///< irradiance per element
     std::vector<Surface> surfaces_;

@@ -247,7 +247,9 @@ struct HurriedScheduler : Scheduler {
     std::string next() {
         const auto kind = s.kind();
         s.on_started(kind);
-        return kind == QualityScheduler::Kind::Hurried ? "hurried" : "full";
+        return kind == QualityScheduler::Kind::Hurried  ? "hurried"
+               : kind == QualityScheduler::Kind::Settle ? "settle"
+                                                        : "full";
     }
 };
 
@@ -264,9 +266,16 @@ TEST_F(HurriedScheduler, LightFollowsAGestureAndSettlesOnRelease) {
     s.on_gesture_end();
     EXPECT_FALSE(s.moving());
     EXPECT_EQ(wants(), "start");
-    EXPECT_EQ(next(), "full");
+    EXPECT_EQ(next(), "settle");
     EXPECT_TRUE(s.unsettled()) << "until it is done";
+    EXPECT_EQ(finished(Outcome::Settled), "start");
+    EXPECT_FALSE(s.unsettled());
+    EXPECT_TRUE(s.refining());
+    EXPECT_EQ(s.state(), State::Solving);
+    EXPECT_EQ(next(), "full");
+    EXPECT_FALSE(s.unsettled()) << "what is shown is exact";
     s.on_finished(Outcome::Final, true);
+    EXPECT_FALSE(s.refining());
     EXPECT_EQ(wants(), "-");
     EXPECT_FALSE(s.unsettled());
     EXPECT_EQ(s.state(), State::Idle);
@@ -288,6 +297,14 @@ TEST_F(HurriedScheduler, AHandThatRestsGetsFullQualityAndMayGoOn) {
     EXPECT_EQ(s.start_time(), now() + QualityScheduler::kRest);
     EXPECT_EQ(wait(199), "-");
     EXPECT_EQ(wait(1), "start");
+    EXPECT_EQ(next(), "settle");
+    EXPECT_EQ(edit(true), "stop") << "at once: the hand is not to wait";
+    EXPECT_EQ(finished(Outcome::Stopped), "start");
+    EXPECT_EQ(next(), "hurried");
+    finished(Outcome::Hurried);
+    EXPECT_EQ(wait(200), "start");
+    EXPECT_EQ(next(), "settle");
+    EXPECT_EQ(finished(Outcome::Settled), "start") << "the hand rests";
     EXPECT_EQ(next(), "full");
     EXPECT_EQ(wait(1000), "-");
     EXPECT_EQ(edit(true), "stop") << "at once: the hand is not to wait";
@@ -296,6 +313,36 @@ TEST_F(HurriedScheduler, AHandThatRestsGetsFullQualityAndMayGoOn) {
     finished(Outcome::Hurried);
     s.on_gesture_end();
     EXPECT_EQ(wants(), "start");
+    EXPECT_EQ(next(), "settle");
+}
+
+TEST_F(HurriedScheduler, ASingleEditIsSettledAtOnce) {
+    EXPECT_EQ(edit(false), "start");
+    EXPECT_EQ(next(), "settle");
+    EXPECT_EQ(edit(false), "stop") << "of an older scene";
+    EXPECT_EQ(finished(Outcome::Stopped), "start");
+    EXPECT_EQ(next(), "settle");
+    EXPECT_EQ(finished(Outcome::Settled), "start");
+    EXPECT_EQ(next(), "full");
+    EXPECT_EQ(edit(false), "stop");
+    EXPECT_EQ(finished(Outcome::Stopped), "start");
+    EXPECT_EQ(next(), "settle") << "the last complete light is still there to start from";
+    EXPECT_EQ(finished(Outcome::Unfit), "start");
+    EXPECT_EQ(next(), "full") << "it was no such edit";
+    s.on_finished(Outcome::Final, true);
+    EXPECT_EQ(wants(), "-");
+}
+
+TEST_F(HurriedScheduler, CancelWhileRefiningKeepsTheExactLight) {
+    edit(false);
+    next();
+    finished(Outcome::Settled);
+    next();
+    s.on_cancel();
+    EXPECT_EQ(wants(), "stop");
+    EXPECT_EQ(finished(Outcome::Stopped), "-");
+    EXPECT_EQ(s.state(), State::Stopped);
+    s.on_resume();
     EXPECT_EQ(next(), "full");
 }
 
@@ -320,7 +367,7 @@ TEST_F(HurriedScheduler, CancelAndAnotherDocumentForgetIt) {
     EXPECT_EQ(wants(), "-") << "cancelled";
     s.on_resume();
     EXPECT_EQ(wants(), "start");
-    EXPECT_EQ(next(), "full");
+    EXPECT_EQ(next(), "settle");
     s.on_load(false, false);
     finished(Outcome::Stopped);
     EXPECT_EQ(wants(), "start");

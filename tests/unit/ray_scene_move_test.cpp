@@ -261,6 +261,47 @@ TEST(RaySceneMove, ManyTrianglesThatMovedOneAfterTheOtherAreBuiltIn) {
     EXPECT_LT(double(rays.memory_bytes()), 1.05 * double(built)) << "as if it never moved";
 }
 
+// What rays met before the moves is still known, and where they may meet something else now.
+TEST(RaySceneMove, LooksBack) {
+    Random r(7);
+    RayScene scene(r.scene);
+    std::vector<Ray> rays;
+    for (int i = 0; i < 4000; ++i) {
+        rays.push_back({r.point(4.0), glm::normalize(r.point(1.0) + vec3(1e-3F))});
+    }
+    std::vector<Hit> first;
+    for (const Ray& ray : rays) {
+        first.push_back(scene.nearest(ray));
+    }
+    int moves = 0;
+    for (int i = 0; i < 12; ++i) {
+        r.move_one();
+        moves += scene.move_to(r.scene) ? 1 : 0;
+        ASSERT_TRUE(scene.look_back());
+    }
+    ASSERT_GT(moves, 3);
+    int changed = 0, told = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Hit before = scene.nearest_before(rays[i]);
+        const Hit now = scene.nearest(rays[i]);
+        EXPECT_EQ(before.surface, first[i].surface);
+        if (before && first[i].surface == before.surface) {
+            EXPECT_EQ(before.triangle, first[i].triangle);
+            EXPECT_EQ(before.t, first[i].t);
+            EXPECT_EQ(before.front, first[i].front);
+            EXPECT_LT(glm::length(before.geometric_normal - first[i].geometric_normal), 1e-4F);
+        }
+        const bool differs = now.surface != before.surface || now.t != before.t;
+        changed += differs ? 1 : 0;
+        told += scene.meets_moved(rays[i]) ? 1 : 0;
+        EXPECT_TRUE(!differs || scene.meets_moved(rays[i]));
+    }
+    EXPECT_GT(changed, 100);
+    EXPECT_LT(told, 2500) << "most rays have nothing to do with what moved";
+    scene.settle();
+    EXPECT_FALSE(scene.meets_moved(rays.front()));
+}
+
 TEST(RaySceneMove, NothingDiffers) {
     Random random(4);
     RayScene rays(random.scene);

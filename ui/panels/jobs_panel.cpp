@@ -57,6 +57,7 @@ QColor state_color(LightState state) {
     case LightState::Solving: return QColor(0x3b, 0x8e, 0xd0);
     case LightState::Moving: return QColor(0x8a, 0x6f, 0xd6);
     case LightState::Settling: return QColor(0x5a, 0xb4, 0xe0);
+    case LightState::Refining: return QColor(0x3f, 0xa3, 0x8b);
     case LightState::UpToDate: return QColor(0x3f, 0xa3, 0x5b);
     case LightState::Stale: return QColor(0xe0, 0xa0, 0x20);
     case LightState::Stopped: return QColor(0x90, 0x90, 0x90);
@@ -72,7 +73,10 @@ LightState light_state(const EngineLink& engine) {
     const SessionStatus status = engine.status();
     switch (status.state) {
     case SessionStatus::State::Solving:
-        return status.moving ? LightState::Moving : status.settling ? LightState::Settling : LightState::Solving;
+        return status.moving     ? LightState::Moving
+               : status.settling ? LightState::Settling
+               : status.refining ? LightState::Refining
+                                 : LightState::Solving;
     case SessionStatus::State::Failed: return LightState::Failed;
     case SessionStatus::State::Stopped: return engine.stale() ? LightState::Stopped : LightState::UpToDate;
     case SessionStatus::State::Idle: break;
@@ -89,6 +93,7 @@ QString light_state_text(const EngineLink& engine) {
     case LightState::Solving: return JobsPanel::tr("Solving %1 %").arg(int(std::floor(status.fraction * 100)));
     case LightState::Moving: return JobsPanel::tr("Light follows");
     case LightState::Settling: return JobsPanel::tr("Settling %1 %").arg(int(std::floor(status.fraction * 100)));
+    case LightState::Refining: return JobsPanel::tr("Settled, refining %1 %").arg(int(std::floor(status.fraction * 100)));
     case LightState::UpToDate: return JobsPanel::tr("Light up to date");
     case LightState::Stale: return JobsPanel::tr("Light out of date");
     case LightState::Stopped: return JobsPanel::tr("Light stopped");

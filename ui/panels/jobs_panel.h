@@ -15,7 +15,7 @@ namespace atrium::ui {
 
 /// State of the light in one word, for the status bar and the panel.
 /// Moving: light follows the hand in a hurry. Settling: the hand let go, and full quality is on its way.
-enum class LightState : std::uint8_t { Empty, Solving, Moving, Settling, UpToDate, Stale, Stopped, Failed };
+enum class LightState : std::uint8_t { Empty, Solving, Moving, Settling, Refining, UpToDate, Stale, Stopped, Failed };
 LightState light_state(const EngineLink& engine);
 QString light_state_text(const EngineLink& engine); ///< "Solving 45 %", "Up to date", ...
 
