@@ -42,9 +42,10 @@ public:
     GiEngine& operator=(GiEngine&&) noexcept;
 
     /// Phases in order: ray_scene, hierarchy, links, gather, layers. `on_snapshot` gets every picture worth showing, the
-    /// last one with final = true. Stopped by context.stop or its deadline: returns the last snapshot (final = false,
-    /// statistics.converged = false), or an error "stopped before the first picture". Stop points: every chunk of 64
-    /// elements or 256 vertices (a few milliseconds).
+    /// last one with final = true. Where only Node::caustics differ from the last complete solution of a solve with
+    /// keep_for_updates, its textures alone are made anew, to the same result. Stopped by context.stop or its deadline:
+    /// returns the last snapshot (final = false, statistics.converged = false), or an error "stopped before the first
+    /// picture". Stop points: every chunk of 64 elements or 256 vertices (a few milliseconds).
     Result<std::shared_ptr<const Solution>>
     solve(const Scene& scene, const SolveOptions& options, const RunContext& context,
           const std::function<void(std::shared_ptr<const Solution>)>& on_snapshot = {});
@@ -67,6 +68,9 @@ private:
     struct Impl;
     static void reflect_change(Impl& impl, const RunContext& context);
     static void show_direct_light(Impl& impl, const RunContext& context);
+    static void keep_question(Impl& impl, const Scene& scene, const SolveOptions& options);
+    // The new solution where nothing but wishes about caustics differs from the last complete one; else null.
+    std::shared_ptr<const Solution> follow_wishes(const Scene& scene, const SolveOptions& options);
     std::unique_ptr<Impl> impl_;
 };
 

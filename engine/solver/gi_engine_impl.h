@@ -49,6 +49,9 @@ struct GiEngine::Impl {
         LayerSet layers;                      ///< as shown, without `complete`
         std::vector<dmat4> placement;         ///< per surface
         std::shared_ptr<const Solution> shown;
+        Scene scene;                                ///< what of it light depends on
+        SolveOptions options;                       ///< of the solve
+        bool settled = true;                        ///< nothing has moved since
         std::unique_ptr<LeafExchange> exchange;     ///< which leaves light which
         std::unique_ptr<ReflectedChange> reflected; ///< null until something moves
         std::vector<bool> away;                     ///< per surface: moved since the complete solution
@@ -57,7 +60,8 @@ struct GiEngine::Impl {
     };
     std::unique_ptr<Live> live;
     CausticSettings caustic_settings;
-    Rgb sky_radiance{0.0F}; ///< cd/m2
+    std::vector<CausticWish> wishes; ///< see caustic_wishes()
+    Rgb sky_radiance{0.0F};          ///< cd/m2
     // Shafts of the parts of direct light: what a change reaches. In the order of direct_parts().
     std::unique_ptr<MirrorLight> mirrors_before; ///< while a moved mirror's old light is taken away
     LightShafts mirror_shafts_before;
@@ -416,5 +420,8 @@ struct GiEngine::Impl {
             statistics.energy.emitted > 0.0 ? 1.0 - (absorbed + statistics.energy.escaped) / statistics.energy.emitted : 0.0;
     }
 };
+
+/// Surfaces whose wish is another now, ascending; both as caustic_wishes() makes them.
+std::vector<std::uint32_t> surfaces_with_new_wishes(std::span<const CausticWish> before, std::span<const CausticWish> now);
 
 } // namespace atrium

@@ -213,6 +213,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         return give_up("nothing is lit");
     }
     Impl::Live& live = *s.live;
+    live.settled = false;
     const std::uint64_t rays_before = s.rays->rays_traced();
     if (!same_lamps(placed_lights(scene, s.rays->origin()), s.punctual->lights()) ||
         scene.environment.sky_radiance != s.sky_radiance) {
@@ -305,8 +306,13 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         report.particles_share = particles.share;
         report.links_visited = s.particles->links().size();
         report.links_changed = particles.links;
-        const CausticReuse reuse{s.caustics, particles.surfaces};
-        s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse);
+        std::vector<CausticWish> wishes = caustic_wishes(scene, *s.rays);
+        std::vector<std::uint32_t> changed = surfaces_with_new_wishes(s.wishes, wishes);
+        changed.insert(changed.end(), particles.surfaces.begin(), particles.surfaces.end());
+        std::sort(changed.begin(), changed.end());
+        s.wishes = std::move(wishes);
+        const CausticReuse reuse{s.caustics, changed};
+        s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse, s.wishes);
     }
 
     context.progress("layers", 0.8);
