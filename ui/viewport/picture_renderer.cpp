@@ -123,6 +123,7 @@ void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, i
     DrawView with_background = from;
     with_background.background = ground;
     with_background.caustic_boxes = in.caustic_boxes;
+    with_background.texel_grid = in.texel_grid ? &in.selected : nullptr;
     gpu_.begin_frame();
     gpu_.draw(in.view, in.scene, with_background);
     if (in.wireframe) {

@@ -20,6 +20,7 @@ struct FrameInput {
     LightShares shares;    ///< of the light to show
     bool wireframe = false;
     bool caustic_boxes = false; ///< outline the caustic textures
+    bool texel_grid = false;    ///< and the texels of those of the selected nodes
     bool refine = false;        ///< smooth edges where the interactive picture goes without
     int width = 1;              ///< device pixels
     int height = 1;
