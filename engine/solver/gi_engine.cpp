@@ -121,6 +121,9 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         s.tell_left_out(statistics.features);
         solution->surfaces = std::move(layers.surfaces);
         solution->caustic_records = s.caustics.records;
+        if (options.keep_landings) {
+            solution->landings = landing_places(*s.rays, s.particles.get());
+        }
         solution->statistics = statistics;
         latest = std::move(solution);
         if (on_snapshot) {

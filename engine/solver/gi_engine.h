@@ -21,6 +21,8 @@ struct SolveOptions {
     std::uint32_t particles = 0; ///< emitted at most; 0 = what the quality stands for
     /// update() will follow: the complete solution keeps what that needs, and stays in place until the next is complete.
     bool keep_for_updates = false;
+    /// Solutions tell where particles landed. Asked for afterwards, with keep_for_updates, nothing is computed anew.
+    bool keep_landings = false;
     bool hurried = false; ///< update() is asked for: solve() hands on to it
     /// Light is on show that is better than a first, coarse picture: none is made.
     bool skip_first_picture = false;
@@ -69,7 +71,8 @@ private:
     static void reflect_change(Impl& impl, const RunContext& context);
     static void show_direct_light(Impl& impl, const RunContext& context);
     static void keep_question(Impl& impl, const Scene& scene, const SolveOptions& options);
-    // The new solution where nothing but wishes about caustics differs from the last complete one; else null.
+    // The new solution where nothing but wishes about caustics (or that landings are asked for) differs from the last
+    // complete one; else null.
     std::shared_ptr<const Solution> follow_wishes(const Scene& scene, const SolveOptions& options);
     std::unique_ptr<Impl> impl_;
 };

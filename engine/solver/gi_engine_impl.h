@@ -421,6 +421,9 @@ struct GiEngine::Impl {
     }
 };
 
+/// Where the particles landed, for Solution::landings.
+std::shared_ptr<const std::vector<SurfaceLandings>> landing_places(const RayScene& rays, const ParticleMap* particles);
+
 /// Surfaces whose wish is another now, ascending; both as caustic_wishes() makes them.
 std::vector<std::uint32_t> surfaces_with_new_wishes(std::span<const CausticWish> before, std::span<const CausticWish> now);
 

@@ -335,6 +335,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     solution->final = false;
     solution->surfaces = live.layers.surfaces;
     solution->caustic_records = s.caustics.records;
+    solution->landings = options.keep_landings ? landing_places(*s.rays, s.particles.get()) : nullptr;
     solution->statistics.converged = false;
     solution->statistics.rays = s.rays->rays_traced() - rays_before;
     solution->statistics.time.solve = seconds_since_start();

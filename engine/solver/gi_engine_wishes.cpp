@@ -40,6 +40,27 @@ std::vector<std::uint32_t> surfaces_with_new_wishes(std::span<const CausticWish>
     return out;
 }
 
+std::shared_ptr<const std::vector<SurfaceLandings>> landing_places(const RayScene& rays, const ParticleMap* particles) {
+    auto out = std::make_shared<std::vector<SurfaceLandings>>();
+    if (particles == nullptr) {
+        return out;
+    }
+    constexpr std::size_t kNone = SIZE_MAX;
+    std::vector<std::size_t> side(2 * rays.surfaces().size(), kNone);
+    for (const Landing& l : particles->landings()) {
+        const RaySurface& surface = rays.surfaces()[l.surface];
+        std::size_t& at = side[2 * std::size_t(l.surface) + (l.back ? 1 : 0)];
+        if (at == kNone) {
+            at = out->size();
+            out->push_back({surface.node, surface.part, l.back, {}});
+        }
+        const uvec3& t = surface.triangles[l.triangle];
+        const std::vector<vec3>& p = surface.mesh->positions;
+        (*out)[at].places.push_back(p[t.x] + (p[t.y] - p[t.x]) * l.barycentric.x + (p[t.z] - p[t.x]) * l.barycentric.y);
+    }
+    return out;
+}
+
 void GiEngine::keep_question(Impl& s, const Scene& scene, const SolveOptions& options) {
     s.live->scene = light_part(scene);
     s.live->options = options;
@@ -58,15 +79,23 @@ std::shared_ptr<const Solution> GiEngine::follow_wishes(const Scene& scene, cons
     }
     std::vector<CausticWish> wishes = caustic_wishes(scene, *s.rays);
     const std::vector<std::uint32_t> changed = surfaces_with_new_wishes(s.wishes, wishes);
-    if (changed.empty() || !(light_part(scene) == live.scene)) {
+    const bool asked_for_landings = options.keep_landings && !live.shown->landings;
+    if ((changed.empty() && !asked_for_landings) || !(light_part(scene) == live.scene)) {
         return nullptr;
     }
-    s.wishes = std::move(wishes);
-    const CausticReuse reuse{s.caustics, changed};
-    s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse, s.wishes);
-    attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics);
+    if (!changed.empty()) {
+        s.wishes = std::move(wishes);
+        const CausticReuse reuse{s.caustics, changed};
+        s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse, s.wishes);
+        attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics);
+    }
     auto solution = std::make_shared<Solution>(*live.shown);
     solution->revision = options.revision;
+    if (!options.keep_landings) {
+        solution->landings.reset();
+    } else if (asked_for_landings) {
+        solution->landings = landing_places(*s.rays, s.particles.get());
+    }
     solution->surfaces = live.layers.surfaces;
     solution->caustic_records = s.caustics.records;
     solution->statistics.memory.caustic_textures = s.caustics.memory_bytes();

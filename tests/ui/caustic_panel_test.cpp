@@ -193,7 +193,7 @@ protected:
         return QTest::qWaitFor(
             [&] {
                 const auto solution = window->engine().solution();
-                return solution && solution->final && !window->engine().stale();
+                return solution && solution->final && solution->revision >= window->document().revision();
             },
             90000);
     }
@@ -268,13 +268,24 @@ TEST_F(CausticInspector, RowsSelectAndFrameAndCanBeSetByHand) {
     settle();
     const dmat4 framed = window->viewport().camera().to_world;
     EXPECT_NE(framed, before);
-    const DBox3 piece = piece_bounds(scene(), *window->engine().solution(), *window->caustics().current());
+    const PiecePlace place = piece_place(scene(), *window->engine().solution(), *window->caustics().current());
+    const DBox3& piece = place.bounds;
     ASSERT_FALSE(piece.empty());
+    EXPECT_NEAR(place.normal.y, 1.0, 1e-3) << "the board is lit from above";
+    EXPECT_TRUE(piece.max.x > place.focus.x && place.focus.x > piece.min.x);
+    EXPECT_GT(dvec3(framed[3]).y, piece.max.y);
+    EXPECT_LT((at(place.focus) - window->viewport().rect().center()).manhattanLength(), 5);
     EXPECT_NEAR(piece.size().x, scene().world_bounds(board).size().x, 0.02);
     for (const dvec3& corner : {piece.min, piece.max}) {
         const QPoint p = at(corner);
         EXPECT_TRUE(window->viewport().rect().contains(p)) << p.x() << ", " << p.y();
     }
+    // From below, where it cannot be seen, the view goes round to the lit side.
+    window->viewport().set_camera(
+        {glm::inverse(glm::lookAt(dvec3(0.2, -1.0, 0.3), dvec3(0.0), dvec3(0, 1, 0))), window->viewport().camera().lens});
+    QTest::keyClick(&table(), Qt::Key_Return);
+    settle();
+    EXPECT_GT(dvec3(window->viewport().camera().to_world[3]).y, piece.max.y);
     window->viewport().set_camera({before, window->viewport().camera().lens});
     const QRect cell = table().visualRect(table().model()->index(window->caustics().view_row(board), 0));
     QTest::mouseDClick(table().viewport(), Qt::LeftButton, {}, cell.center());

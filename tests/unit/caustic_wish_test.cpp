@@ -227,5 +227,39 @@ TEST(CausticWish, IsFollowedWithoutTracingAnythingAnew) {
     expect_same_caustics(*settled, *fresh.solve());
 }
 
+TEST(Landings, AreToldWhenAskedFor) {
+    Lit lit;
+    const auto before = lit.solve();
+    EXPECT_FALSE(before->landings) << "nobody asked";
+    lit.options.keep_landings = true;
+    const auto with = lit.solve();
+    ASSERT_TRUE(with->landings);
+    EXPECT_EQ(with->statistics.rays, before->statistics.rays) << "asked for later, nothing is traced";
+    expect_same_caustics(*with, *before);
+    std::size_t count = 0;
+    for (const SurfaceLandings& side : *with->landings) {
+        count += side.places.size();
+        if (side.node == lit.stage.scene.roots[0]) { // the floor, in its own coordinates
+            for (const vec3& p : side.places) {
+                EXPECT_NEAR(p.z, 0.0F, 1e-5F);
+                EXPECT_LE(std::max(std::abs(p.x), std::abs(p.y)), 3.001F);
+            }
+        }
+    }
+    EXPECT_EQ(count, with->statistics.particles_stored);
+    EXPECT_GT(count, 1000U);
+    // They go with what moves.
+    lit.stage.scene.nodes.find(lit.stage.ball)->transform.translation.x += 0.2;
+    const auto moved = lit.engine.update(lit.stage.scene, lit.options, {});
+    ASSERT_TRUE(moved) << moved.error().message();
+    ASSERT_TRUE((*moved)->landings);
+    EXPECT_NE((*moved)->landings, with->landings);
+    const auto settled = lit.solve();
+    ASSERT_TRUE(settled->landings);
+    lit.options.keep_landings = false;
+    lit.wish(0) = {Show::Mesh, 0, 0};
+    EXPECT_FALSE(lit.solve()->landings) << "and are gone with the next light";
+}
+
 } // namespace
 } // namespace atrium

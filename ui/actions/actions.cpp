@@ -58,6 +58,7 @@ const std::array kTable = {
     ActionInfo{ActionId::Wireframe, "wireframe", ATRIUM_TEXT("Wire&frame"), "Z", "wireframe", ATRIUM_TEXT("Draw the edges of the light mesh over the picture"), true},
     ActionInfo{ActionId::CausticBoxes, "caustic_boxes", ATRIUM_TEXT("Caustic Bo&xes"), "Shift+B", "", ATRIUM_TEXT("Outline the textures that hold light bundled by mirrors and glass"), true},
     ActionInfo{ActionId::TexelGrid, "texel_grid", ATRIUM_TEXT("Te&xel Grid"), "Shift+G", "", ATRIUM_TEXT("Draw lines between the texels of the selected objects' caustics, where these are large enough to be seen"), true},
+    ActionInfo{ActionId::ParticleLandings, "particle_landings", ATRIUM_TEXT("&Particle Landings"), "Shift+P", "", ATRIUM_TEXT("Draw every particle where it landed on the selected objects; takes memory while it is on"), true},
     ActionInfo{ActionId::CausticsFlat, "caustics_flat", ATRIUM_TEXT("&Flat: One Value per Face"), "Alt+1", "", ATRIUM_TEXT("Show every face of the mesh in the mean of its light"), true},
     ActionInfo{ActionId::CausticsOnMesh, "caustics_on_mesh", ATRIUM_TEXT("Caustics on the &Mesh"), "Alt+2", "", ATRIUM_TEXT("Show caustics at the corners of the mesh, without textures"), true},
     ActionInfo{ActionId::CausticsInTextures, "caustics_in_textures", ATRIUM_TEXT("Caustics in &Textures"), "Alt+3", "", ATRIUM_TEXT("Show the light as it is computed"), true},

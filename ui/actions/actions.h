@@ -54,6 +54,7 @@ enum class ActionId : std::uint8_t {
     Wireframe,
     CausticBoxes,
     TexelGrid,
+    ParticleLandings,
     CausticsFlat,
     CausticsOnMesh,
     CausticsInTextures,

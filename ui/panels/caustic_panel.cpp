@@ -55,6 +55,7 @@ CausticPanel::CausticPanel(Document& document, EngineLink& engine, QWidget* pare
     splitter_->addWidget(make_details());
     splitter_->setStretchFactor(0, 3);
     splitter_->setStretchFactor(1, 2);
+    splitter_->setSizes({520, 470}); // a dock as wide as a window of usual size leaves
     nothing_ = new QLabel;
     nothing_->setObjectName(QStringLiteral("caustic_nothing"));
     nothing_->setAlignment(Qt::AlignCenter);
@@ -103,10 +104,10 @@ void CausticPanel::make_table() {
     table_->horizontalHeader()->setSectionsMovable(true);
     const int letter = table_->fontMetrics().averageCharWidth();
     const std::pair<int, int> widths[] = {
-        {CausticTableModel::Surface, 20},   {CausticTableModel::ShownAs, 16},    {CausticTableModel::Reason, 44},
-        {CausticTableModel::Particles, 12}, {CausticTableModel::Texel, 10},      {CausticTableModel::TexelReason, 30},
-        {CausticTableModel::Kernel, 10},    {CausticTableModel::Boxes, 9},       {CausticTableModel::Coverage, 11},
-        {CausticTableModel::Memory, 11},    {CausticTableModel::InTextures, 13}, {CausticTableModel::OnMesh, 11}};
+        {CausticTableModel::Surface, 22},    {CausticTableModel::ShownAs, 12}, {CausticTableModel::Texel, 8},
+        {CausticTableModel::Boxes, 6},       {CausticTableModel::Coverage, 9}, {CausticTableModel::Memory, 9},
+        {CausticTableModel::InTextures, 13}, {CausticTableModel::OnMesh, 9},   {CausticTableModel::Particles, 9},
+        {CausticTableModel::Kernel, 8},      {CausticTableModel::Reason, 60},  {CausticTableModel::TexelReason, 32}};
     for (const auto& [column, letters] : widths) {
         table_->horizontalHeader()->resizeSection(column, letters * letter + 12);
     }
@@ -170,6 +171,7 @@ QWidget* CausticPanel::make_details() {
     details_->addWidget(preview_);
     details_->setStretchFactor(0, 1);
     details_->setStretchFactor(1, 1);
+    details_->setSizes({260, 210});
     return details_;
 }
 

@@ -73,7 +73,7 @@ float exposure_for(const std::vector<std::shared_ptr<const CausticTexture>>& tex
     }
     const auto at = lit.begin() + std::ptrdiff_t(double(lit.size() - 1) * 0.99);
     std::nth_element(lit.begin(), at, lit.end());
-    constexpr float kNearWhite = 3.0F; // the filmic curve is at 0.95 there
+    constexpr float kNearWhite = 1.5F; // the filmic curve is at 0.9 there, so that what is brighter still differs
     return *at > 0.0F ? kNearWhite / *at : 1.0F;
 }
 

@@ -258,7 +258,10 @@ QString count_text(std::uint64_t n) { return QLocale().toString(qulonglong(n)); 
 
 QString length_text(double metres) {
     if (metres < 0.1) {
-        return words(QT_TRANSLATE_NOOP("Caustics", "%1 mm")).arg(number(1000.0 * metres, metres < 0.01 ? 1 : 0));
+        return words(QT_TRANSLATE_NOOP("Caustics", "%1 mm"))
+            .arg(number(1000.0 * metres, metres < 0.001  ? 2
+                                         : metres < 0.01 ? 1
+                                                         : 0));
     }
     return words(QT_TRANSLATE_NOOP("Caustics", "%1 m")).arg(number(metres, 2));
 }

@@ -124,6 +124,7 @@ void GpuScene::release() {
     light_maps_.release(*gl_);
     caustics_.release(*gl_);
     forget_awaited();
+    forget_landings();
     gl_->glDeleteTextures(1, &white_);
     gl_->glDeleteTextures(1, &probe_.texture);
     gl_->glDeleteTextures(1, &next_probe_.texture);

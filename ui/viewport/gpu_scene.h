@@ -68,6 +68,10 @@ public:
     /// Flat silhouettes in one colour of the items that `wanted` accepts.
     void draw_mask(const ViewScene& view, const DrawView& from, const vec4& color,
                    const std::function<bool(const ViewItem&)>& wanted);
+    /// Particles where they landed on the nodes in `of`. What was uploaded for it is freed when `landings` is null.
+    void draw_landings(const ViewScene& view, const DrawView& from,
+                       const std::shared_ptr<const std::vector<SurfaceLandings>>& landings,
+                       const std::unordered_set<NodeId>& of, float pixel_ratio);
     /// Edges of the display meshes.
     void draw_edges(const ViewScene& view, const DrawView& from);
 
@@ -150,6 +154,9 @@ private:
     bool caustic_boxes_ = false;                             ///< in what is being drawn
     const std::unordered_set<NodeId>* texel_grid_ = nullptr; ///< likewise
     unsigned white_ = 0;
+    std::shared_ptr<const std::vector<SurfaceLandings>> landings_;                     ///< that points_ are of
+    std::unordered_map<const SurfaceLandings*, std::pair<unsigned, unsigned>> points_; ///< vertex array and buffer
+    void forget_landings();
 
     struct Probe {
         unsigned texture = 0;

@@ -129,6 +129,7 @@ void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, i
     if (in.wireframe) {
         gpu_.draw_edges(in.view, from);
     }
+    gpu_.draw_landings(in.view, from, in.landings, in.selected, float(in.pixel_ratio));
     if (samples > 0) {
         resolved_.resize(gl, in.width, in.height, 0, GL_RGBA8, false);
         gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.framebuffer());

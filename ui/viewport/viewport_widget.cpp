@@ -4,6 +4,7 @@
 #include "engine/view/tone.h"
 #include "ui/document/background.h"
 #include "ui/tools/transform_tool.h"
+#include "ui/viewport/look_at.h"
 #include "ui/viewport/markers.h"
 #include "ui/viewport/picture_renderer.h"
 
@@ -58,6 +59,7 @@ struct ViewportWidget::Impl : ToolHost {
     bool wireframe = false;
     bool caustic_boxes = false;
     bool texel_grid = false;
+    bool landings = false;
     CausticView caustic_view = CausticView::Texture;
     bool deriving = false;   ///< the light is being made ready for caustic_view
     int document_number = 0; ///< rises with every other document
@@ -191,7 +193,7 @@ struct ViewportWidget::Impl : ToolHost {
             }
         }
         renderer.invalidate_mask();
-        if (texel_grid) {
+        if (texel_grid || landings) {
             renderer.invalidate_picture();
         }
         widget.update();
@@ -522,8 +524,14 @@ void ViewportWidget::frame_selection() {
         impl_->frame(box);
     }
 }
-void ViewportWidget::frame_box(const DBox3& box) {
-    if (!box.empty()) {
+void ViewportWidget::look_at(const DBox3& box, const dvec3& focus, const dvec3& normal) {
+    if (box.empty()) {
+        return;
+    }
+    impl_->sync();
+    if (const auto camera = camera_towards(impl_->controller, impl_->view, box, focus, normal)) {
+        set_camera(*camera);
+    } else {
         impl_->frame(box);
     }
 }
@@ -574,6 +582,13 @@ void ViewportWidget::set_caustic_boxes(bool on) {
 void ViewportWidget::set_texel_grid(bool on) {
     if (on != impl_->texel_grid) {
         impl_->texel_grid = on;
+        impl_->picture_changed();
+    }
+}
+
+void ViewportWidget::set_landings(bool on) {
+    if (on != impl_->landings) {
+        impl_->landings = on;
         impl_->picture_changed();
     }
 }
@@ -681,6 +696,7 @@ void ViewportWidget::paintGL() {
                   impl_->wireframe,
                   impl_->caustic_boxes,
                   impl_->texel_grid,
+                  impl_->landings && impl_->solution ? impl_->solution->landings : nullptr,
                   impl_->refine,
                   std::max(1, int(std::lround(width() * ratio))),
                   std::max(1, int(std::lround(height() * ratio))),

@@ -182,7 +182,8 @@ void MainWindow::make_docks() {
     connect(caustics_, &CausticPanel::message, this, &MainWindow::say);
     connect(caustics_, &CausticPanel::activated, this, [this](const CausticRow& row) {
         if (const auto solution = engine_->solution()) {
-            viewport_->frame_box(piece_bounds(document_.scene(), *solution, row));
+            const PiecePlace place = piece_place(document_.scene(), *solution, row);
+            viewport_->look_at(place.bounds, place.focus, place.normal);
         }
     });
 
@@ -257,11 +258,11 @@ void MainWindow::make_menus() {
     fill(tr("&Add"), {ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder, ActionId::AddCone,
                       ActionId::AddDisc, gap, ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight,
                       ActionId::AddSun, ActionId::AddDaylight, gap, ActionId::AddCamera});
-    auto* view =
-        fill(tr("&View"), {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap, ActionId::ExposureUp,
-                           ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::ShowDirect, ActionId::ShowDiffuse,
-                           ActionId::ShowCaustic, gap, ActionId::Wireframe, ActionId::CutWalls, gap,
-                           ActionId::InspectCaustics, ActionId::CausticBoxes, ActionId::TexelGrid});
+    auto* view = fill(tr("&View"),
+                      {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap, ActionId::ExposureUp,
+                       ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::ShowDirect, ActionId::ShowDiffuse,
+                       ActionId::ShowCaustic, gap, ActionId::Wireframe, ActionId::CutWalls, gap, ActionId::InspectCaustics,
+                       ActionId::CausticBoxes, ActionId::TexelGrid, ActionId::ParticleLandings});
     auto* ways = view->addMenu(tr("Ca&ustics Shown As"));
     for (const auto& [id, way] : kWays) {
         ways->addAction(a[id]);
@@ -446,6 +447,13 @@ void MainWindow::connect_view() {
     connect((*actions_)[ActionId::Wireframe], &QAction::toggled, viewport_, &ViewportWidget::set_wireframe);
     connect((*actions_)[ActionId::CausticBoxes], &QAction::toggled, viewport_, &ViewportWidget::set_caustic_boxes);
     connect((*actions_)[ActionId::TexelGrid], &QAction::toggled, viewport_, &ViewportWidget::set_texel_grid);
+    connect((*actions_)[ActionId::ParticleLandings], &QAction::toggled, this, [this](bool on) {
+        engine_->keep_landings(on);
+        viewport_->set_landings(on);
+        if (on && document_.selection()->nodes().empty()) {
+            say(tr("Select an object to see the particles that landed on it."));
+        }
+    });
     auto* ways = new QActionGroup(this);
     for (const auto& [id, way] : kWays) {
         ways->addAction((*actions_)[id]);
