@@ -68,7 +68,7 @@ void GiEngine::keep_question(Impl& s, const Scene& scene, const SolveOptions& op
 
 std::shared_ptr<const Solution> GiEngine::follow_wishes(const Scene& scene, const SolveOptions& options) {
     Impl& s = *impl_;
-    if (!options.keep_for_updates || !s.live || !s.live->settled || !s.particles) {
+    if (!options.keep_for_updates || !s.live || !s.live->settled) {
         return nullptr;
     }
     Impl::Live& live = *s.live;
@@ -83,8 +83,8 @@ std::shared_ptr<const Solution> GiEngine::follow_wishes(const Scene& scene, cons
     if ((changed.empty() && !asked_for_landings) || !(light_part(scene) == live.scene)) {
         return nullptr;
     }
-    if (!changed.empty()) {
-        s.wishes = std::move(wishes);
+    s.wishes = std::move(wishes);
+    if (!changed.empty() && s.particles) { // without particles a wish changes nothing
         const CausticReuse reuse{s.caustics, changed};
         s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse, s.wishes);
         attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics);

@@ -157,6 +157,33 @@ TEST(CausticTable, ANewSolutionLeavesRowsWhereTheyAre) {
     EXPECT_EQ(model.rowCount(), 0);
 }
 
+TEST(CausticTable, ThousandsOfRowsTakeNoTime) {
+    CausticTableModel model;
+    CausticFilter filter;
+    filter.setSourceModel(&model);
+    filter.sort(CausticTableModel::InTextures, Qt::DescendingOrder);
+    QTableView view;
+    view.setModel(&filter);
+    view.show();
+    QElapsedTimer clock;
+    for (int round = 0; round < 3; ++round) {
+        std::vector<CausticRow> rows;
+        for (std::uint32_t i = 0; i < 3000; ++i) {
+            rows.push_back(
+                row_of(i, "Surface", Decision::Texture, double((i * 7919U + std::uint32_t(round) * 13U) % 1000U)));
+        }
+        QSignalSpy changes(&model, &QAbstractItemModel::dataChanged);
+        clock.restart();
+        model.set_rows(std::move(rows));
+        std::printf("[ stall    ] 3000 rows, light number %d: %.1f ms\n", round + 1, double(clock.nsecsElapsed()) / 1e6);
+        EXPECT_EQ(changes.count(), round == 0 ? 0 : 1);
+        EXPECT_EQ(filter.rowCount(), 3000);
+        EXPECT_GE(
+            filter.index(0, 0).siblingAtColumn(CausticTableModel::InTextures).data(CausticTableModel::kSortRole).toDouble(),
+            998.0);
+    }
+}
+
 TEST(CausticPictures, AreTheTexturesUprightAndHalvedByMeans) {
     auto texture = std::make_shared<CausticTexture>();
     texture->width = 128;

@@ -227,6 +227,19 @@ TEST(CausticWish, IsFollowedWithoutTracingAnythingAnew) {
     expect_same_caustics(*settled, *fresh.solve());
 }
 
+TEST(CausticWish, CostsNothingWhereThereAreNoCaustics) {
+    Lit lit;
+    lit.stage.scene = Scene();
+    test::add_rectangle(lit.stage.scene, "floor", {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, 2.0F, 2.0F,
+                        test::add_material(lit.stage.scene, 0.5F));
+    test::add_point_light(lit.stage.scene, {0.3, 1.0, 0.2}, 1000.0);
+    const auto before = lit.solve();
+    lit.wish(0) = {Show::Texture, 0, 0};
+    const auto after = lit.solve();
+    EXPECT_NE(after, before);
+    EXPECT_EQ(after->surfaces, before->surfaces) << "shared, not solved again";
+}
+
 TEST(Landings, AreToldWhenAskedFor) {
     Lit lit;
     const auto before = lit.solve();

@@ -16,6 +16,7 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace atrium::ui {
 
@@ -116,7 +117,6 @@ void CausticPanel::make_table() {
     table_->installEventFilter(this);
     connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &CausticPanel::on_table_selection);
     connect(table_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &CausticPanel::show_details);
-    connect(model_, &QAbstractItemModel::dataChanged, this, &CausticPanel::show_details);
     connect(table_, &QTableView::doubleClicked, this, &CausticPanel::activate);
 }
 
@@ -264,20 +264,27 @@ void CausticPanel::activate() {
     }
 }
 
+std::vector<NodeId> CausticPanel::chosen_nodes() const {
+    std::vector<NodeId> nodes;
+    std::unordered_set<NodeId> seen;
+    const QModelIndexList rows = table_->selectionModel()->selectedRows();
+    for (const QModelIndex& index : rows) {
+        const NodeId node = model_->row(filter_->mapToSource(index).row()).record.node;
+        if (seen.insert(node).second) {
+            nodes.push_back(node);
+        }
+    }
+    return nodes;
+}
+
 void CausticPanel::on_table_selection() {
     show_details();
     if (syncing_) {
         return;
     }
     syncing_ = true;
-    std::vector<NodeId> nodes;
-    const QModelIndexList rows = table_->selectionModel()->selectedRows();
-    for (const QModelIndex& index : rows) {
-        const NodeId node = model_->row(filter_->mapToSource(index).row()).record.node;
-        if (document_.scene().nodes.contains(node) && std::find(nodes.begin(), nodes.end(), node) == nodes.end()) {
-            nodes.push_back(node);
-        }
-    }
+    std::vector<NodeId> nodes = chosen_nodes();
+    std::erase_if(nodes, [this](NodeId id) { return !document_.scene().nodes.contains(id); });
     if (!nodes.empty()) {
         document_.selection()->set(std::move(nodes));
     }
@@ -289,11 +296,13 @@ void CausticPanel::on_document_selection() {
         return;
     }
     syncing_ = true;
+    const std::vector<NodeId>& nodes = document_.selection()->nodes();
+    const std::unordered_set<NodeId> wanted(nodes.begin(), nodes.end());
     QItemSelection selection;
     QModelIndex first;
     for (int i = 0; i < filter_->rowCount(); ++i) {
         const QModelIndex index = filter_->index(i, 0);
-        if (document_.selection()->contains(model_->row(filter_->mapToSource(index).row()).record.node)) {
+        if (wanted.contains(model_->row(filter_->mapToSource(index).row()).record.node)) {
             selection.select(index, index.siblingAtColumn(CausticTableModel::ColumnCount - 1));
             first = first.isValid() ? first : index;
         }
@@ -312,15 +321,7 @@ void CausticPanel::on_document_selection() {
 
 void CausticPanel::show_details() {
     const CausticRow* row = current();
-    std::vector<NodeId> nodes;
-    const QModelIndexList rows = table_->selectionModel()->selectedRows();
-    for (const QModelIndex& index : rows) {
-        const NodeId node = model_->row(filter_->mapToSource(index).row()).record.node;
-        if (std::find(nodes.begin(), nodes.end(), node) == nodes.end()) {
-            nodes.push_back(node);
-        }
-    }
-    section_->set_targets(std::move(nodes), row);
+    section_->set_targets(chosen_nodes(), row);
     preview_->show_row(row != nullptr ? std::optional(*row) : std::nullopt);
     if (row == nullptr) {
         head_->setText(tr("Choose a surface in the table."));

@@ -51,6 +51,7 @@ private:
     QWidget* make_details();
     void refresh(); ///< from the present solution
     void refresh_soon();
+    [[nodiscard]] std::vector<NodeId> chosen_nodes() const; ///< of the rows that are chosen
     void on_table_selection();
     void on_document_selection();
     void show_details();

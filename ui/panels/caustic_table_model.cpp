@@ -69,11 +69,14 @@ void CausticTableModel::set_rows(std::vector<CausticRow> rows) {
             --end;
         }
     }
+    // Told once: a view that sorts would begin anew for every row.
+    std::size_t first_changed = rows.size(), last_changed = 0;
     for (std::size_t i = 0; i < rows.size();) {
         if (i < rows_.size() && rows_[i].same_place(rows[i])) {
             if (!(rows_[i] == rows[i])) {
                 rows_[i] = rows[i];
-                Q_EMIT dataChanged(index(int(i), 0), index(int(i), ColumnCount - 1));
+                first_changed = std::min(first_changed, i);
+                last_changed = i;
             }
             ++i;
             continue;
@@ -87,6 +90,9 @@ void CausticTableModel::set_rows(std::vector<CausticRow> rows) {
                      rows.begin() + std::ptrdiff_t(end));
         endInsertRows();
         i = end;
+    }
+    if (first_changed < rows.size()) {
+        Q_EMIT dataChanged(index(int(first_changed), 0), index(int(last_changed), ColumnCount - 1));
     }
 }
 

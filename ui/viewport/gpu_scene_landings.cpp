@@ -35,10 +35,12 @@ void GpuScene::draw_landings(const ViewScene& view, const DrawView& from,
     const int place = mask_->uniformLocation("u_mvp");
     const dmat4 view_projection = from.projection * from.rotation;
     for (const SurfaceLandings& side : *landings_) {
+        if (!of.contains(side.node) || side.places.empty()) {
+            continue;
+        }
         const auto item = std::find_if(view.items().begin(), view.items().end(),
                                        [&](const ViewItem& one) { return one.node == side.node && one.part == side.part; });
-        if (item == view.items().end() || !of.contains(side.node) || side.places.empty() ||
-            from.cutaway.part_of(item->bounds) == Cutaway::Part::All) {
+        if (item == view.items().end() || from.cutaway.part_of(item->bounds) == Cutaway::Part::All) {
             continue;
         }
         auto& [array, buffer] = points_[&side];
