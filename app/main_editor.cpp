@@ -2,6 +2,7 @@
 #include "ui/window/file_controller.h"
 #include "ui/window/main_window.h"
 
+#include <QAction>
 #include <QApplication>
 #include <QCommandLineParser>
 #include <QDockWidget>
@@ -85,9 +86,14 @@ int main(int argc, char** argv) {
     const QCommandLineOption select(QStringLiteral("select"), QObject::tr("select the node of this name"),
                                     QStringLiteral("NODE"));
     const QCommandLineOption panel(QStringLiteral("panel"),
-                                   QObject::tr("bring a panel to the front: tree, properties, jobs, problems"),
+                                   QObject::tr("bring a panel to the front: tree, properties, jobs, problems, "
+                                               "caustics; none puts all away"),
                                    QStringLiteral("NAME"));
-    parser.addOptions({screenshot, wait, size, sample, select, panel});
+    const QCommandLineOption command(QStringLiteral("command"),
+                                     QObject::tr("run a command of the menus by its name (caustic_boxes, wireframe, ...) "
+                                                 "once the file is open; may be repeated"),
+                                     QStringLiteral("NAME"));
+    parser.addOptions({screenshot, wait, size, sample, select, panel, command});
     parser.process(app);
 
     atrium::ui::MainWindow window;
@@ -96,6 +102,20 @@ int main(int argc, char** argv) {
         window.resize(extent[0].toInt(), extent[1].toInt());
     }
     window.show();
+    if (parser.value(panel) == QStringLiteral("none")) {
+        for (QDockWidget* dock : window.findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly)) {
+            dock->hide();
+        }
+    }
+    if (parser.isSet(command)) {
+        QObject::connect(&window.files(), &atrium::ui::FileController::opened, &window, [&] {
+            for (const QString& name : parser.values(command)) {
+                if (auto* action = window.findChild<QAction*>(name)) {
+                    action->trigger();
+                }
+            }
+        });
+    }
     if (auto* dock = window.findChild<QDockWidget*>(QStringLiteral("dock_") + parser.value(panel))) {
         dock->show();
         dock->raise();

@@ -45,6 +45,7 @@ public:
 
     void run(double texel_share) {
         record_.chart = domain_.chart;
+        record_.wish = settings_.wish;
         record_.particles = mine_.size();
         record_.extent = domain_.extent;
         record_.threshold = settings_.paper ? settings_.eta : settings_.least_dispersion;
@@ -65,18 +66,23 @@ public:
         const Choice choice = choose_texture(points, domain_, charts_, positions_, triangles_, settings_);
         record_.dispersion = float(choice.dispersion);
         record_.contrast = choice.contrast;
-        record_.decision = choice.decision;
+        record_.decision = record_.found = choice.decision;
         power_ = all_power();
         if (power_ > kFullest * CausticAccumulator::kMost * domain_.area) {
-            record_.decision = CausticRecord::Decision::Coarse;
+            record_.decision = record_.found = CausticRecord::Decision::Coarse;
             record_.why = "more light than a texture can hold";
         } else if (settings_.paper) {
             paper(texel_share);
-        } else if (record_.decision == CausticRecord::Decision::Texture) {
-            by_footprints(texel_share);
+        } else {
+            obey_wish();
+            if (record_.decision == CausticRecord::Decision::Texture) {
+                by_footprints(texel_share);
+            }
         }
+        say_what_is_by_hand();
         if (record_.decision != CausticRecord::Decision::Texture) {
             left_ = all();
+            record_.sizing = CausticRecord::Sizing::None;
         }
         for (const std::uint32_t k : left_) {
             on_mesh.add(double(luminance(own_[k].power)));
@@ -88,6 +94,39 @@ public:
     }
 
 private:
+    // Too few particles to fill a texture stay too few, whatever is wished.
+    void obey_wish() {
+        using Decision = CausticRecord::Decision;
+        record_.found = record_.decision;
+        if (settings_.wish.show == CausticWish::Show::Mesh) {
+            record_.decision = Decision::SetToMesh;
+        } else if (settings_.wish.show == CausticWish::Show::Texture && record_.decision != Decision::TooFew) {
+            record_.decision = Decision::Texture;
+        }
+    }
+    // Not one place was lit by particles enough to fill a texture.
+    void give_up_without_boxes() {
+        if (record_.boxes.empty()) {
+            record_.decision = CausticRecord::Decision::TooFew;
+            record_.found = settings_.wish.show == CausticWish::Show::Automatic ? record_.decision : record_.found;
+        }
+    }
+    void say_what_is_by_hand() {
+        std::string what;
+        const auto add = [&](const std::string& one) { what += (what.empty() ? "" : "; ") + one; };
+        if (settings_.wish.show != CausticWish::Show::Automatic) {
+            add(fmt::format("set by hand to {}, by itself {}", caustic_show_name(settings_.wish.show),
+                            caustic_decision_name(record_.found)));
+        }
+        if (settings_.wish.threshold > 0.0F && !settings_.paper) {
+            add(fmt::format("threshold of {:.3g} set by hand", settings_.wish.threshold));
+        }
+        if (!record_.why.empty()) {
+            add(record_.why);
+        }
+        record_.why = std::move(what);
+    }
+
     [[nodiscard]] vec2 size() const { return domain_.high - domain_.low; }
     [[nodiscard]] std::vector<std::uint32_t> all() const {
         std::vector<std::uint32_t> out(own_.size());
@@ -134,11 +173,22 @@ private:
         }
         const auto budget = std::uint32_t(std::max(texel_share * double(settings_.most_texels), 256.0));
         const bool known = !minor.empty();
+        const float narrow = median(minor);
+        using Sizing = CausticRecord::Sizing;
         float edge = footprint_resolution(std::move(minor), 0.0, budget, settings_.mesh_edge);
-        if (!known) {
-            edge = std::min(edge, float(std::sqrt(domain_.area / double(mine_.size()))));
+        record_.sizing = edge < 0.25F * settings_.mesh_edge ? Sizing::Footprints : Sizing::Mesh;
+        if (const auto each = float(std::sqrt(domain_.area / double(mine_.size()))); !known && each < edge) {
+            edge = each;
+            record_.sizing = Sizing::Particles;
         }
-        edge = std::max(edge, float(std::sqrt(power_ / CausticAccumulator::kMost))); // all in one texel
+        if (settings_.wish.texel > 0.0F) {
+            edge = settings_.wish.texel;
+            record_.sizing = Sizing::ByHand;
+        }
+        if (const auto least = float(std::sqrt(power_ / CausticAccumulator::kMost)); edge < least) { // all in one texel
+            edge = least;
+            record_.sizing = Sizing::Brightness;
+        }
         for (int attempt = 0; attempt < 8; ++attempt) {
             const auto side = [&](float extent) { return std::clamp(int(std::ceil(extent / edge)), 1, kMostTexels); };
             const int width = side(domain_.extent.x), height = side(domain_.extent.y);
@@ -150,14 +200,43 @@ private:
             if (texels <= double(budget) || attempt == 7) {
                 record_.width = std::uint32_t(width);
                 record_.height = std::uint32_t(height);
-                record_.why = fmt::format("texels of {:.1f} mm: {}", 1000.0 * double(edge),
-                                          attempt > 0 ? "what the memory for textures allows"
-                                                      : "half the median width of the particles' footprints");
+                record_.sizing = attempt > 0 ? Sizing::Memory : record_.sizing;
+                record_.why = fmt::format("texels of {:.1f} mm: {}", 1000.0 * double(edge), sizing_words(record_.sizing));
+                record_.kernel = 2.0F * std::hypot(narrow, KernelLimits{}.least * edge);
                 fill(boxes, width, height);
                 return;
             }
             edge *= float(std::sqrt(texels / double(budget)) * 1.02);
         }
+    }
+
+    // Of lengths, by power; sorts them. 0 of none.
+    static float median(std::vector<std::pair<float, float>>& length_and_power) {
+        std::sort(length_and_power.begin(), length_and_power.end());
+        double all = 0.0, below = 0.0;
+        for (const auto& [length, power] : length_and_power) {
+            all += power;
+        }
+        for (const auto& [length, power] : length_and_power) {
+            below += power;
+            if (below >= 0.5 * all) {
+                return length;
+            }
+        }
+        return 0.0F;
+    }
+    static const char* sizing_words(CausticRecord::Sizing sizing) {
+        switch (sizing) {
+        case CausticRecord::Sizing::Footprints: return "half the width of the narrow ones among the particles' footprints";
+        case CausticRecord::Sizing::Mesh: return "a quarter of what the mesh shows, for the particles' footprints are wide";
+        case CausticRecord::Sizing::Particles: return "one particle each, for their footprints are not known";
+        case CausticRecord::Sizing::Brightness: return "what a texel can hold";
+        case CausticRecord::Sizing::Memory: return "what the memory for textures allows";
+        case CausticRecord::Sizing::ByHand: return "set by hand";
+        case CausticRecord::Sizing::Equation7: return "equation 7";
+        case CausticRecord::Sizing::None: break;
+        }
+        return "";
     }
 
     // Power of all landings, lumen: the sum of every one's strongest colour.
@@ -346,9 +425,7 @@ private:
                 left_.push_back(std::uint32_t(k));
             }
         }
-        if (record_.boxes.empty()) {
-            record_.decision = CausticRecord::Decision::TooFew;
-        }
+        give_up_without_boxes();
     }
 
     // ---- the algorithms of 2001 ----
@@ -364,6 +441,7 @@ private:
 
     void paper(double texel_share) {
         const double budget = std::max(texel_share * double(settings_.most_texels), 256.0);
+        record_.sizing = CausticRecord::Sizing::Equation7;
         int level = caustic_level(double(mine_.size()), double(settings_.epsilon));
         record_.why =
             fmt::format("equation 7: 2^{} a side for {} particles at epsilon {}", level, mine_.size(), settings_.epsilon);
@@ -372,6 +450,7 @@ private:
                 std::min(budget / double(textures), kFullest * CausticAccumulator::kMost * domain_.area / power_);
             while (level > 0 && std::ldexp(1.0, 2 * level) > most) {
                 --level;
+                record_.sizing = CausticRecord::Sizing::Memory;
                 record_.why = fmt::format("2^{} a side: what the memory for textures allows", level);
             }
             return paper_resolution(level, domain_.extent);
@@ -396,6 +475,7 @@ private:
         if (record_.decision == CausticRecord::Decision::Texture && record_.contrast < settings_.eta) {
             record_.decision = CausticRecord::Decision::Uniform;
         }
+        obey_wish();
         if (record_.decision != CausticRecord::Decision::Texture) {
             return;
         }
@@ -433,9 +513,7 @@ private:
             add_ring(own, image);
             left_ = std::move(outside);
         }
-        if (record_.boxes.empty()) {
-            record_.decision = CausticRecord::Decision::TooFew;
-        }
+        give_up_without_boxes();
     }
 
     // A ring of black texels where the box ends within the chart.
@@ -480,8 +558,12 @@ private:
 
 CausticSide build_caustics(std::span<const CausticLanding> landings, const SurfaceCharts& charts,
                            std::span<const vec3> positions, std::span<const uvec3> triangles,
-                           const CausticSettings& settings) {
+                           const CausticSettings& automatic) {
     CausticSide out;
+    CausticSettings settings = automatic;
+    if (settings.wish.threshold > 0.0F) {
+        settings.least_dispersion = settings.wish.threshold;
+    }
     const std::vector<ChartDomain> domains = chart_domains(charts, positions, triangles);
     const auto chart_of = [&](const CausticLanding& l) {
         const std::uint32_t chart = charts.chart_of_triangle[l.triangle];
@@ -517,7 +599,8 @@ CausticSide build_caustics(std::span<const CausticLanding> landings, const Surfa
     if (!out.on_mesh.empty()) {
         CausticRecord record;
         record.chart = SurfaceCharts::kNone;
-        record.decision = CausticRecord::Decision::Uncharted;
+        record.decision = record.found = CausticRecord::Decision::Uncharted;
+        record.wish = settings.wish;
         record.particles = out.on_mesh.size();
         record.why = "pieces too small for a chart";
         OrderFreeSum power{double(strongest)};

@@ -28,6 +28,7 @@ struct CausticSettings {
     float least_dispersion = 6.0F;        ///< default: standard deviations
     float mesh_edge = 0.1F;               ///< metres: what the mesh resolves
     std::uint32_t most_texels = 1U << 22; ///< of all textures of a surface side together
+    CausticWish wish;                     ///< of the surface's node
 };
 
 struct CausticSide {

@@ -20,8 +20,9 @@ Rgb CausticTexture::irradiance(const vec2& uv) const {
 }
 
 const char* caustic_decision_name(CausticRecord::Decision decision) {
-    static constexpr const char* kNames[] = {"texture", "mesh: uniform", "mesh: no finer than the mesh",
-                                             "mesh: too few particles", "mesh: no chart"};
+    static constexpr const char* kNames[] = {
+        "texture",        "mesh: uniform",    "mesh: no finer than the mesh", "mesh: too few particles",
+        "mesh: no chart", "mesh: set by hand"};
     return kNames[std::size_t(decision)];
 }
 

@@ -32,17 +32,32 @@ struct CausticTexture {
 /// What was decided about one chart of a surface side that particles landed on, and why: what the inspector shows.
 struct CausticRecord {
     enum class Decision : std::uint8_t {
-        Texture,  ///< light has detail finer than the mesh
-        Uniform,  ///< light is as even as chance allows
-        Coarse,   ///< its detail is no finer than the mesh
-        TooFew,   ///< too few particles to say
-        Uncharted ///< pieces too small for a chart
+        Texture,   ///< light has detail finer than the mesh
+        Uniform,   ///< light is as even as chance allows
+        Coarse,    ///< its detail is no finer than the mesh
+        TooFew,    ///< too few particles to say
+        Uncharted, ///< pieces too small for a chart
+        SetToMesh  ///< by hand, see CausticWish
+    };
+    /// What the resolution follows.
+    enum class Sizing : std::uint8_t {
+        None,       ///< there is no texture
+        Footprints, ///< half the width of narrow kernels
+        Mesh,       ///< kernels are wider than that: a quarter of what the mesh resolves
+        Particles,  ///< footprints are unknown: one particle a texel
+        Brightness, ///< what a texel may hold
+        Memory,     ///< what the memory for textures allows
+        ByHand,     ///< see CausticWish
+        Equation7   ///< paper mode
     };
     NodeId node;
     std::uint32_t part = 0;
     std::uint32_t chart = 0; ///< of SurfaceCharts; 0xFFFFFFFF for everything uncharted
     bool back = false;
     Decision decision = Decision::TooFew;
+    Decision found = Decision::TooFew; ///< what the tests say: `decision`, unless that was set by hand
+    CausticWish wish;                  ///< of the surface's node
+    Sizing sizing = Sizing::None;
     std::uint64_t particles = 0;
     float contrast = 0.0F;   ///< (p_max - p_min) / p_max of the histogram, PAPER equation 2
     float dispersion = 0.0F; ///< standard deviations by which the histogram is more uneven than chance
@@ -50,7 +65,8 @@ struct CausticRecord {
     vec2 extent{0.0F};       ///< of the chart, metres
     std::uint32_t width = 0; ///< of the histogram over the whole chart, texels: the resolution chosen
     std::uint32_t height = 0;
-    std::string why;          ///< of the resolution, for people
+    float kernel = 0.0F;      ///< width of a kernel across its narrow side, metres, the median by power; 0 = no kernels
+    std::string why;          ///< of the resolution and of what was set by hand, for people
     std::vector<vec4> boxes;  ///< restriction boxes u0, v0, u1, v1 in the chart's [0,1]^2
     double power_texture = 0; ///< lumen in textures (luminance)
     double power_mesh = 0;    ///< lumen on the mesh

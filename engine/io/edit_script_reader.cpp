@@ -238,6 +238,28 @@ ScriptEdit read_light(const Members& m) {
     return {out};
 }
 
+ScriptEdit read_caustics(const Members& m) {
+    constexpr std::array kNames = {"node", "show", "texel", "threshold"};
+    m.only(kNames);
+    ScriptCaustics out;
+    out.node = m.node();
+    if (const auto show = m.text("show")) {
+        using Show = CausticWish::Show;
+        for (const Show one : {Show::Automatic, Show::Mesh, Show::Texture}) {
+            if (*show == caustic_show_name(one)) {
+                out.show = one;
+            }
+        }
+        if (!out.show) {
+            m.wrong("show", "is \"" + *show + "\", which is no way to show caustics", "Write automatic, mesh or texture.");
+        }
+    }
+    out.texel = m.real("texel", 0.0, kUnbounded);
+    out.threshold = m.real("threshold", 0.0, kUnbounded);
+    m.any_of(std::span(kNames).subspan(1));
+    return {out};
+}
+
 /// The shape that fills a box of this size; an empty size is the editor's for a new object.
 Geometry shape_of(const Members& m, const std::string& kind, std::vector<float> size) {
     const auto need = [&](bool good, const char* what) {
@@ -299,7 +321,7 @@ ScriptEdit read_delete(const Members& m) {
 
 ScriptEdit read_one(const Json& json, std::size_t index) {
     const std::string place = "edits/" + std::to_string(index);
-    const std::string kinds = "Write drag, move, material, light, add, delete, undo or redo.";
+    const std::string kinds = "Write drag, move, material, light, caustics, add, delete, undo or redo.";
     if (!json.is_object()) {
         refuse(place, "is " + shown(json) + " but must be an object", "Write it as {\"kind\": \"undo\"}.");
     }
@@ -316,6 +338,9 @@ ScriptEdit read_one(const Json& json, std::size_t index) {
     }
     if (kind == "light") {
         return read_light(m);
+    }
+    if (kind == "caustics") {
+        return read_caustics(m);
     }
     if (kind == "add") {
         return read_add(m);

@@ -8,7 +8,8 @@
 //     cone      baseRadius, topRadius, height, capped               along y, base at -height/2
 //     disc      radius                                              plane z = 0, front +z
 // ATRIUM_light        on a light of KHR_lights_punctual: angularDiameterDegrees (directional only), enabled
-// ATRIUM_node         on a node: visible, locked
+// ATRIUM_node         on a node: visible, locked, caustics {show "automatic" | "mesh" | "texture", texel (edge, metres),
+//                     threshold (standard deviations)}: what was set by hand about caustics on its shape
 // ATRIUM_camera       on a camera: exposure (stops from automatic exposure); infinite (an orthographic camera without far
 // plane) ATRIUM_environment  on the root: skyRadiance [r,g,b] in cd/m2, the same from every direction ATRIUM_settings     on
 // the root: quality "draft" | "normal" | "fine", seed ATRIUM_solution     on the root of a .atrium file: bufferView,

@@ -79,6 +79,30 @@ dmat4 matrix_of(ReadContext& context, const std::vector<double>& values, const s
     return m;
 }
 
+/// What was set by hand about caustics. What this version does not know is automatic: it only decides how light is shown.
+CausticWish wish_of(ReadContext& context, const Json& json, const std::string& where) {
+    CausticWish wish;
+    const std::string show = text(json, "show", where);
+    if (show == caustic_show_name(CausticWish::Show::Mesh)) {
+        wish.show = CausticWish::Show::Mesh;
+    } else if (show == caustic_show_name(CausticWish::Show::Texture)) {
+        wish.show = CausticWish::Show::Texture;
+    } else if (!show.empty() && show != caustic_show_name(CausticWish::Show::Automatic)) {
+        context.warn(where, "\"" + show + "\" is no way to show caustics that this version knows; they are automatic");
+    }
+    const auto length = [&](const char* key) {
+        const double value = number(json, key, 0.0, where);
+        if (value < 0.0) {
+            context.warn(where, std::string("\"") + key + "\" is below zero and was left out");
+            return 0.0F;
+        }
+        return float(value);
+    };
+    wish.texel = length("texel");
+    wish.threshold = length("threshold");
+    return wish;
+}
+
 /// Copy of a mesh with a linear residual applied to every vertex.
 std::shared_ptr<const MeshData> baked(const MeshData& mesh, const dmat4& residual) {
     auto out = std::make_shared<MeshData>(mesh);
@@ -285,6 +309,9 @@ void NodeReader::attach(const Json& json, Node& node, int index_of_node) {
     if (const Json* ours = find_extension(json, kNode)) {
         node.visible = boolean(*ours, "visible", node.visible, where);
         node.locked = boolean(*ours, "locked", false, where);
+        if (const Json* caustics = find_object(*ours, "caustics", where)) {
+            node.caustics = wish_of(context_, *caustics, where + "/caustics");
+        }
     }
     if (gltf.skin >= 0) {
         context_.count("meshes are bound to a skeleton: they are shown in their rest pose, and the skeleton is not saved");

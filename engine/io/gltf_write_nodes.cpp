@@ -141,6 +141,19 @@ Json node_json(const WriteContext& context, const Node& node, const std::map<Nod
     if (node.locked) {
         json["extensions"][kNode]["locked"] = true;
     }
+    if (const CausticWish& wish = node.caustics; !wish.automatic()) {
+        Json& ours = json["extensions"][kNode]["caustics"];
+        ours = Json::object();
+        if (wish.show != CausticWish::Show::Automatic) {
+            ours["show"] = caustic_show_name(wish.show);
+        }
+        if (wish.texel > 0.0F) {
+            ours["texel"] = short_number(wish.texel);
+        }
+        if (wish.threshold > 0.0F) {
+            ours["threshold"] = short_number(wish.threshold);
+        }
+    }
     put_text(json, "extras", node.extras);
     return json;
 }

@@ -222,7 +222,8 @@ std::vector<CausticRecord> build_side(const RayScene& rays, const SurfaceCharts&
     }
     if (uncharted.particles > 0) {
         uncharted.chart = SurfaceCharts::kNone;
-        uncharted.decision = CausticRecord::Decision::Uncharted;
+        uncharted.decision = uncharted.found = CausticRecord::Decision::Uncharted;
+        uncharted.wish = settings.wish;
         uncharted.why = "pieces too small for a chart";
         records.push_back(uncharted);
     }
@@ -235,6 +236,16 @@ std::vector<CausticRecord> build_side(const RayScene& rays, const SurfaceCharts&
 }
 
 } // namespace
+
+std::vector<CausticWish> caustic_wishes(const Scene& scene, const RayScene& rays) {
+    std::vector<CausticWish> out(rays.surfaces().size());
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const Node* node = scene.nodes.find(rays.surfaces()[i].node);
+        out[i] = node != nullptr ? node->caustics : CausticWish{};
+    }
+    const bool any = std::any_of(out.begin(), out.end(), [](const CausticWish& wish) { return !wish.automatic(); });
+    return any ? out : std::vector<CausticWish>();
+}
 
 std::size_t CausticLight::memory_bytes() const {
     std::size_t bytes = 0;
@@ -255,8 +266,10 @@ std::size_t CausticLight::texture_count() const {
 }
 
 CausticLight build_caustic_light(const RayScene& rays, std::span<const SurfaceCharts> charts, const ParticleMap& particles,
-                                 const CausticSettings& settings, const CausticReuse* reuse) {
+                                 const CausticSettings& settings, const CausticReuse* reuse,
+                                 std::span<const CausticWish> wishes) {
     CausticLight out;
+    CausticSettings own = settings;
     std::map<std::pair<std::uint32_t, bool>, std::vector<std::uint32_t>> by_side;
     for (std::uint32_t i = 0; i < particles.landings().size(); ++i) {
         const Landing& l = particles.landings()[i];
@@ -280,7 +293,8 @@ CausticLight build_caustic_light(const RayScene& rays, std::span<const SurfaceCh
         } else {
             side.surface = key.first;
             side.back = key.second;
-            records = build_side(rays, charts[side.surface], particles, landings, settings, side);
+            own.wish = wishes.empty() ? CausticWish{} : wishes[side.surface];
+            records = build_side(rays, charts[side.surface], particles, landings, own, side);
         }
         side.on_mesh.resize(side.places.size());
         std::transform(side.places.begin(), side.places.end(), side.on_mesh.begin(),

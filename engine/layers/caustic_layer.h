@@ -37,10 +37,15 @@ struct CausticReuse {
     std::span<const std::uint32_t> changed;
 };
 
-/// Decides, sizes and fills the textures of every side. `charts` as chart_surfaces() makes them. Parallel; the same for any
-/// number of threads, and with `reuse` (may be null) as without.
+/// What the nodes of `scene` wish, for every one of RayScene::surfaces(); empty where all of it is automatic.
+std::vector<CausticWish> caustic_wishes(const Scene& scene, const RayScene& rays);
+
+/// Decides, sizes and fills the textures of every side. `charts` as chart_surfaces() makes them, `wishes` as
+/// caustic_wishes() does. Parallel; the same for any number of threads, and with `reuse` (may be null) as without: surfaces
+/// whose wish changed count as changed.
 CausticLight build_caustic_light(const RayScene& rays, std::span<const SurfaceCharts> charts, const ParticleMap& particles,
-                                 const CausticSettings& settings, const CausticReuse* reuse = nullptr);
+                                 const CausticSettings& settings, const CausticReuse* reuse = nullptr,
+                                 std::span<const CausticWish> wishes = {});
 
 /// Puts the light on the layers: textures are shared, landings without one are spread over the vertices around them, so that
 /// what triangles interpolate holds their power exactly. `layers` are those of the same ray scene.

@@ -12,6 +12,7 @@ struct Kind {
     const char* operator()(const ScriptMove&) const { return "move"; }
     const char* operator()(const ScriptMaterial&) const { return "material"; }
     const char* operator()(const ScriptLight&) const { return "light"; }
+    const char* operator()(const ScriptCaustics&) const { return "caustics"; }
     const char* operator()(const ScriptAdd&) const { return "add"; }
     const char* operator()(const ScriptDelete&) const { return "delete"; }
     const char* operator()(const ScriptUndo&) const { return "undo"; }
@@ -26,6 +27,7 @@ struct Target {
     const std::string& operator()(const ScriptMove& e) const { return e.node; }
     const std::string& operator()(const ScriptMaterial& e) const { return e.material; }
     const std::string& operator()(const ScriptLight& e) const { return e.node; }
+    const std::string& operator()(const ScriptCaustics& e) const { return e.node; }
     const std::string& operator()(const ScriptAdd& e) const { return e.shape.name; }
     const std::string& operator()(const ScriptDelete& e) const { return e.node; }
     const std::string& operator()(const ScriptUndo&) const { return none(); }
@@ -166,6 +168,21 @@ Result<SceneEdit> ScriptedScene::edit_for(const ScriptLight& e) const {
         edits.push_back(SceneEdit{SetResource<Material>{m, std::move(material)}});
     }
     return as_one(std::move(edits));
+}
+
+Result<SceneEdit> ScriptedScene::edit_for(const ScriptCaustics& e) const {
+    const auto id = node(e.node);
+    if (!id) {
+        return tl::unexpected(id.error());
+    }
+    Node value = *scene_.nodes.find(*id);
+    if (!value.shape) {
+        return fail("", "", "the node shows no shape that caustics could fall on", "Name the node that has the surface.");
+    }
+    set_if(value.caustics.show, e.show);
+    set_if(value.caustics.texel, e.texel);
+    set_if(value.caustics.threshold, e.threshold);
+    return SceneEdit{SetNode{*id, std::move(value)}};
 }
 
 Result<SceneEdit> ScriptedScene::edit_for(const ScriptAdd& e) const {

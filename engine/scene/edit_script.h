@@ -51,11 +51,20 @@ struct ScriptAdd {
 struct ScriptDelete {
     std::string node;
 };
+/// How caustics on a node's own shape are shown, see CausticWish; 0 = automatic.
+struct ScriptCaustics {
+    std::string node;
+    std::optional<CausticWish::Show> show;
+    std::optional<float> texel;
+    std::optional<float> threshold;
+};
 struct ScriptUndo {};
 struct ScriptRedo {};
 
 struct ScriptEdit {
-    std::variant<ScriptDrag, ScriptMove, ScriptMaterial, ScriptLight, ScriptAdd, ScriptDelete, ScriptUndo, ScriptRedo> value;
+    std::variant<ScriptDrag, ScriptMove, ScriptMaterial, ScriptLight, ScriptCaustics, ScriptAdd, ScriptDelete, ScriptUndo,
+                 ScriptRedo>
+        value;
 
     /// "drag", "move", ...: the word in the file.
     [[nodiscard]] const char* kind() const;
@@ -96,6 +105,7 @@ private:
     Result<SceneEdit> edit_for(const ScriptMove& e) const;
     Result<SceneEdit> edit_for(const ScriptMaterial& e) const;
     Result<SceneEdit> edit_for(const ScriptLight& e) const;
+    Result<SceneEdit> edit_for(const ScriptCaustics& e) const;
     Result<SceneEdit> edit_for(const ScriptAdd& e) const;
     Result<SceneEdit> edit_for(const ScriptDelete& e) const;
     Result<NodeId> node(const std::string& name) const;

@@ -137,7 +137,8 @@ bool neutral(const Scene& scene, const SetNode& e) {
     }
     const bool same_light =
         old->light == e.value.light || (!may_shine(scene, old->light) && !may_shine(scene, e.value.light));
-    return old->shape == e.value.shape && same_light && (!old->shape || old->materials == e.value.materials);
+    return old->shape == e.value.shape && same_light &&
+           (!old->shape || (old->materials == e.value.materials && old->caustics == e.value.caustics));
 }
 bool neutral(const Scene& scene, const SetEnvironment& e) { return scene.environment == e.value; }
 bool neutral(const Scene& scene, const SetSolverSettings& e) { return scene.settings == e.value; }

@@ -3,6 +3,7 @@
 
 #include "engine/base/ids.h"
 #include "engine/base/math.h"
+#include "engine/scene/caustic_wish.h"
 #include "engine/scene/light.h"
 #include "engine/scene/material.h"
 #include "engine/scene/shape.h"
@@ -37,7 +38,8 @@ struct Node {
     CameraId camera;
     bool visible = true; ///< hidden nodes (and all below them) take no part in the light
     bool locked = false;
-    std::string extras; ///< JSON text of the file's own extras
+    std::string extras;   ///< JSON text of the file's own extras
+    CausticWish caustics; ///< on its own shape
     friend bool operator==(const Node&, const Node&) = default;
 };
 

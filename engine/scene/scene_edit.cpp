@@ -174,6 +174,15 @@ Result<void> check_parts(const Scene& scene, const std::string& where, const Nod
     return {};
 }
 
+Result<void> check_wish(const std::string& where, const CausticWish& wish) {
+    const auto usable = [](float v) { return finite(v) && v >= 0.0F; };
+    if (!usable(wish.texel) || !usable(wish.threshold)) {
+        return fail("", where, "the size of its caustic texels or their threshold is below zero or not a finite number",
+                    "Zero is automatic");
+    }
+    return {};
+}
+
 // ---- the tree ----
 
 std::vector<NodeId>& siblings_below(Scene& scene, NodeId parent) {
@@ -211,6 +220,9 @@ Result<SceneEdit> apply_one(Scene& scene, const AddNode& edit) {
     }
     if (auto parts = check_parts(scene, where, edit.node); !parts) {
         return tl::unexpected(parts.error());
+    }
+    if (auto wish = check_wish(where, edit.node.caustics); !wish) {
+        return tl::unexpected(wish.error());
     }
     Node node = edit.node;
     node.transform = *transform;
@@ -279,6 +291,9 @@ Result<SceneEdit> apply_one(Scene& scene, const SetNode& edit) {
     }
     if (auto parts = check_parts(scene, node_label(scene, edit.id), edit.value); !parts) {
         return tl::unexpected(parts.error());
+    }
+    if (auto wish = check_wish(node_label(scene, edit.id), edit.value.caustics); !wish) {
+        return tl::unexpected(wish.error());
     }
     Node value = edit.value;
     value.parent = node->parent;

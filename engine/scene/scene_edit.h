@@ -48,7 +48,8 @@ struct SetParent {
     NodeId parent;
     std::size_t index = SIZE_MAX;
 };
-/// Replaces name, visibility, lock, shape, materials, light, camera and extras; parent, children and transform stay.
+/// Replaces name, visibility, lock, shape, materials, light, camera, caustics and extras; parent, children and transform
+/// stay.
 struct SetNode {
     NodeId id;
     Node value;

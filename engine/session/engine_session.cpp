@@ -113,7 +113,9 @@ struct EngineSession::Impl {
     /// Called and left with the lock held; the solve itself runs without.
     void solve_once(std::unique_lock<std::mutex>& lock) {
         const QualityScheduler::Kind kind = scheduler.kind();
-        const bool has_light = scheduler.unsettled() || scheduler.refining();
+        // Where good light is on show a first, coarse picture would be a step back.
+        const bool good_on_show =
+            scheduler.unsettled() || scheduler.refining() || (latest && latest->final && latest_revision == revision);
         scheduler.on_started(kind);
         running_stop = StopFlag();
         started = Clock::now();
@@ -121,9 +123,10 @@ struct EngineSession::Impl {
         fraction = 0.0;
         message.clear();
         const StopFlag stop = running_stop;
+        const bool landings = landings_wanted;
         lock.unlock();
         tell();
-        Ended ended = solve_guarded(stop, kind, has_light);
+        Ended ended = solve_guarded(stop, kind, good_on_show, landings);
         const bool updatable = ended.picture && ended.picture->updatable;
         lock.lock();
         if (ended.picture && !scheduler.abandoned() && ended.picture != latest) {
@@ -133,11 +136,12 @@ struct EngineSession::Impl {
             message = std::move(ended.message);
         }
         scheduler.on_finished(ended.outcome, updatable);
+        ask_for_landings();
         phase.clear();
         last_duration = Clock::now() - started;
     }
 
-    Ended solve_guarded(const StopFlag& stop, QualityScheduler::Kind kind, bool has_light) {
+    Ended solve_guarded(const StopFlag& stop, QualityScheduler::Kind kind, bool good_on_show, bool landings) {
         using Outcome = QualityScheduler::Outcome;
         RunContext context;
         context.stop = stop;
@@ -149,7 +153,8 @@ struct EngineSession::Impl {
         options.keep_for_updates = true;
         options.hurried = kind == QualityScheduler::Kind::Hurried;
         options.settle = kind == QualityScheduler::Kind::Settle;
-        options.skip_first_picture = has_light;
+        options.skip_first_picture = good_on_show;
+        options.keep_landings = landings;
         try {
             auto result = solve(scene, options, context, [&](const Picture& picture) { on_snapshot(picture); });
             if (!result) {
@@ -209,6 +214,13 @@ struct EngineSession::Impl {
     void publish(Picture picture) {
         latest_revision = revision; // of the scene being solved; publish() is called during a solve only
         latest = std::move(picture);
+    }
+    /// A complete picture that does not tell where particles landed is made anew where that is wanted.
+    void ask_for_landings() {
+        if (landings_wanted && scheduler.state() == QualityScheduler::State::Idle && latest && latest->final &&
+            !latest->landings && latest->statistics.particles_stored > 0) {
+            scheduler.on_edit(Clock::now(), true, false);
+        }
     }
     /// Tells the running solve when it is of no more use: now, or once the hand has rested. No timer is needed for that.
     void stop_if_stale() const { running_stop.request_stop_at(scheduler.stop_time()); }
@@ -311,6 +323,7 @@ struct EngineSession::Impl {
     mutable std::mutex mutex;
     std::condition_variable changed;
     bool quit = false;
+    bool landings_wanted = false;
     std::optional<Load> pending_load;
     EditMailbox mailbox;
     QualityScheduler scheduler;
@@ -346,6 +359,13 @@ void EngineSession::cancel() {
 }
 void EngineSession::resume() {
     impl_->steer([this] { impl_->scheduler.on_resume(); });
+}
+
+void EngineSession::keep_landings(bool on) {
+    impl_->steer([this, on] {
+        impl_->landings_wanted = on;
+        impl_->ask_for_landings();
+    });
 }
 
 std::shared_ptr<const Solution> EngineSession::latest() const {

@@ -57,6 +57,10 @@ public:
     /// Solves the present scene if latest() is not its final solution.
     void resume();
 
+    /// Whether solutions tell where particles landed (SolveOptions::keep_landings). Turned on, the next one that does
+    /// follows at once where the engine keeps what that needs, else after a solve.
+    void keep_landings(bool on);
+
     [[nodiscard]] std::shared_ptr<const Solution> latest() const; ///< may be null
     [[nodiscard]] SessionStatus status() const;
 

@@ -30,6 +30,12 @@ bool GiEngine::has_solution() const { return impl_->solved; }
 Result<std::shared_ptr<const Solution>>
 GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContext& context,
                 const std::function<void(std::shared_ptr<const Solution>)>& on_snapshot) {
+    if (auto shown_otherwise = follow_wishes(scene, options)) {
+        if (on_snapshot) {
+            on_snapshot(shown_otherwise);
+        }
+        return shown_otherwise;
+    }
     if (options.hurried || options.settle) {
         return update(scene, options, context);
     }
@@ -83,6 +89,9 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         s.tell_left_out(statistics.features);
         solution->surfaces = std::move(layers.surfaces);
         solution->caustic_records = s.caustics.records;
+        if (options.keep_landings) {
+            solution->landings = landing_places(*s.rays, s.particles.get());
+        }
         solution->statistics = statistics;
         latest = std::move(solution);
         if (on_snapshot) {
@@ -108,6 +117,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     }
     s.field = quality.field;
     s.caustic_settings = quality.caustics;
+    s.wishes = caustic_wishes(scene, *s.rays);
     s.sky_radiance = scene.environment.sky_radiance;
     std::unique_ptr<LiveDirectMaps> live_maps;
     std::unique_ptr<LeafExchange> kept_exchange;
@@ -225,7 +235,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         if (s.particles && set.complete) {
             timer.next("caustics");
             if (s.caustics.empty()) {
-                s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, quality.caustics);
+                s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, quality.caustics, nullptr, s.wishes);
             }
             attach_caustics(set.surfaces, *s.rays, *s.particles, s.caustics);
         }
@@ -360,6 +370,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     publish(std::move(set), true);
     if (options.keep_for_updates) {
         s.live->shown = latest;
+        keep_question(s, scene, options);
         impl_ = std::move(fresh);
     }
     context.progress("layers", 1.0);

@@ -26,6 +26,8 @@ struct SolveOptions {
     std::uint32_t particles = 0; ///< emitted at most; 0 = what the quality stands for
     /// update() will follow: the complete solution keeps what that needs, and stays in place until the next is complete.
     bool keep_for_updates = false;
+    /// Solutions tell where particles landed. Asked for afterwards, with keep_for_updates, nothing is computed anew.
+    bool keep_landings = false;
     bool hurried = false; ///< solve() hands on to update()
     bool settle = false;  ///< likewise, and that is not in a hurry: as exact as a new solution, or nearly
     /// Light is on show that is better than a first, coarse picture: none is made.
@@ -48,9 +50,10 @@ public:
     GiEngine& operator=(GiEngine&&) noexcept;
 
     /// Phases in order: ray_scene, hierarchy, links, gather, layers. `on_snapshot` gets every picture worth showing, the
-    /// last one with final = true. Stopped by context.stop or its deadline: returns the last snapshot (final = false,
-    /// statistics.converged = false), or an error "stopped before the first picture". Stop points: every chunk of 64
-    /// elements or 256 vertices (a few milliseconds).
+    /// last one with final = true. Where only Node::caustics differ from the last complete solution of a solve with
+    /// keep_for_updates, its textures alone are made anew, to the same result. Stopped by context.stop or its deadline:
+    /// returns the last snapshot (final = false, statistics.converged = false), or an error "stopped before the first
+    /// picture". Stop points: every chunk of 64 elements or 256 vertices (a few milliseconds).
     Result<std::shared_ptr<const Solution>>
     solve(const Scene& scene, const SolveOptions& options, const RunContext& context,
           const std::function<void(std::shared_ptr<const Solution>)>& on_snapshot = {});
@@ -81,6 +84,10 @@ private:
                                                                      const RunContext& context);
     static void show_direct_light(Impl& impl, const LightChange& change, const RunContext& context);
     static void light_leaves_again(Impl& impl, const LightChange& change, const RunContext& context);
+    static void keep_question(Impl& impl, const Scene& scene, const SolveOptions& options);
+    // The new solution where nothing but wishes about caustics (or that landings are asked for) differs from the last
+    // complete one; else null.
+    std::shared_ptr<const Solution> follow_wishes(const Scene& scene, const SolveOptions& options);
     std::unique_ptr<Impl> impl_;
 };
 

@@ -51,6 +51,9 @@ struct GiEngine::Impl {
         LayerSet layers;                      ///< as shown, without `complete`
         std::vector<dmat4> placement;         ///< per surface
         std::shared_ptr<const Solution> shown;
+        Scene scene;                                     ///< what of it light depends on
+        SolveOptions options;                            ///< of the solve
+        bool untouched = true;                           ///< no update since
         std::unique_ptr<LeafExchange> exchange;          ///< which leaves light which
         std::unique_ptr<ReflectedChange> reflected;      ///< null until something moves
         std::map<std::uint32_t, Displacement> displaced; ///< by surface: what moved since the complete solution
@@ -58,12 +61,13 @@ struct GiEngine::Impl {
         std::vector<std::uint8_t> new_maps;              ///< per surface: its layer does not show its light maps yet
         QualitySettings quality;
         float light_floor = 0.0F;              ///< lux: what counts as dark
-        std::vector<Box3> settled;             ///< where what had moved stood when all was exact last
+        std::vector<Box3> settled_boxes;       ///< where what had moved stood when all was exact last
         std::vector<std::uint8_t> leaf_looked; ///< per element: its direct light was sampled again then
     };
     std::unique_ptr<Live> live;
     CausticSettings caustic_settings;
-    Rgb sky_radiance{0.0F}; ///< cd/m2
+    std::vector<CausticWish> wishes; ///< see caustic_wishes()
+    Rgb sky_radiance{0.0F};          ///< cd/m2
     // Shafts of the parts of direct light: what a change reaches. In the order of direct_parts().
     std::unique_ptr<MirrorLight> mirrors_before; ///< while a moved mirror's old light is taken away
     LightShafts mirror_shafts_before;
@@ -422,5 +426,11 @@ struct GiEngine::Impl {
             statistics.energy.emitted > 0.0 ? 1.0 - (absorbed + statistics.energy.escaped) / statistics.energy.emitted : 0.0;
     }
 };
+
+/// Where the particles landed, for Solution::landings.
+std::shared_ptr<const std::vector<SurfaceLandings>> landing_places(const RayScene& rays, const ParticleMap* particles);
+
+/// Surfaces whose wish is another now, ascending; both as caustic_wishes() makes them.
+std::vector<std::uint32_t> surfaces_with_new_wishes(std::span<const CausticWish> before, std::span<const CausticWish> now);
 
 } // namespace atrium

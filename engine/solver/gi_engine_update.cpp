@@ -245,6 +245,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         return give_up("nothing is lit");
     }
     Impl::Live& live = *s.live;
+    live.untouched = false;
     const std::uint64_t rays_before = s.rays->rays_traced();
     if (!same_lamps(placed_lights(scene, s.rays->origin()), s.punctual->lights()) ||
         scene.environment.sky_radiance != s.sky_radiance) {
@@ -307,7 +308,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
             look_at.boxes.insert(look_at.boxes.end(), {d.before, d.now});
             look_at.moved[surface] = 1;
         }
-        look_at.boxes.insert(look_at.boxes.end(), live.settled.begin(), live.settled.end());
+        look_at.boxes.insert(look_at.boxes.end(), live.settled_boxes.begin(), live.settled_boxes.end());
         join_boxes(look_at.boxes);
     } else {
         fewer_rays.emplace(s.field.direct);
@@ -359,8 +360,13 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         report.links_visited = s.particles->links().size();
         report.links_changed = particles.links;
         timer.next("caustics");
-        const CausticReuse reuse{s.caustics, particles.surfaces};
-        s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse);
+        std::vector<CausticWish> wishes = caustic_wishes(scene, *s.rays);
+        std::vector<std::uint32_t> changed = surfaces_with_new_wishes(s.wishes, wishes);
+        changed.insert(changed.end(), particles.surfaces.begin(), particles.surfaces.end());
+        std::sort(changed.begin(), changed.end());
+        s.wishes = std::move(wishes);
+        const CausticReuse reuse{s.caustics, changed};
+        s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse, s.wishes);
     }
 
     context.progress("layers", 0.8);
@@ -376,11 +382,11 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     change = {};
     live.new_maps.clear();
     if (options.settle) {
-        live.settled.clear();
+        live.settled_boxes.clear();
         for (const auto& [surface, d] : live.displaced) {
-            live.settled.push_back(d.now);
+            live.settled_boxes.push_back(d.now);
         }
-        join_boxes(live.settled);
+        join_boxes(live.settled_boxes);
     }
     s.mirrors_before.reset();
     s.mirror_shafts_before = {};
@@ -388,6 +394,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     solution->final = false;
     solution->surfaces = live.layers.surfaces;
     solution->caustic_records = s.caustics.records;
+    solution->landings = options.keep_landings ? landing_places(*s.rays, s.particles.get()) : nullptr;
     solution->statistics.converged = false;
     timer.stop();
     solution->statistics.rays = s.rays->rays_traced() - rays_before;

@@ -12,6 +12,14 @@
 
 namespace atrium {
 
+/// Where particles landed on one side of a surface: to be looked at, nothing is computed from it.
+struct SurfaceLandings {
+    NodeId node;
+    std::uint32_t part = 0;
+    bool back = false;
+    std::vector<vec3> places; ///< in the node's own coordinates
+};
+
 /// Result of a solve at one revision of the document. Never changed after it was published; surfaces are shared between
 /// snapshots while unchanged.
 struct Solution {
@@ -19,6 +27,8 @@ struct Solution {
     bool final = false;         ///< false = a first, coarse picture; a better one follows
     std::vector<std::shared_ptr<const SurfaceLayer>> surfaces;
     std::vector<CausticRecord> caustic_records; ///< what was decided about surfaces that caustic light falls on
+    /// Null unless asked for (SolveOptions::keep_landings): 12 bytes a landing. Not kept in project files.
+    std::shared_ptr<const std::vector<SurfaceLandings>> landings;
     Statistics statistics;
     bool updatable = false;   ///< the engine keeps what GiEngine::update() starts from; not kept in project files
     double mean_radiance = 0; ///< log-average of shown diffuse radiance, cd/m2: what automatic exposure starts from

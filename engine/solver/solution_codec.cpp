@@ -13,7 +13,8 @@ namespace atrium {
 namespace {
 
 constexpr char kMagic[8] = {'A', 'T', 'R', 'L', 'I', 'G', 'H', 'T'};
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kOldest = 3; ///< without what CausticRecord says of kernels and of what was set by hand
 constexpr std::uint64_t kMaxBytes = std::uint64_t(4) << 30;
 constexpr float kLargestChartCoordinate = 1e6F; ///< tiles; no surface has a thousandth of it
 
@@ -224,21 +225,39 @@ void write_record(ByteWriter& out, const CausticRecord& r) {
     out.value(r.power_texture);
     out.value(r.power_mesh);
     out.value(r.bytes);
+    out.value(std::uint8_t(r.found));
+    out.value(std::uint8_t(r.sizing));
+    out.value(r.kernel);
+    out.value(std::uint8_t(r.wish.show));
+    out.value(r.wish.texel);
+    out.value(r.wish.threshold);
 }
-bool read_record(ByteReader& in, CausticRecord& r) {
+bool read_wish(ByteReader& in, CausticRecord& r) {
+    std::uint8_t found = 0, sizing = 0, show = 0;
+    if (!in.value(found) || !in.value(sizing) || !in.value(r.kernel) || !in.value(show) || !in.value(r.wish.texel) ||
+        !in.value(r.wish.threshold) || found > std::uint8_t(CausticRecord::Decision::SetToMesh) ||
+        sizing > std::uint8_t(CausticRecord::Sizing::Equation7) || show > std::uint8_t(CausticWish::Show::Texture)) {
+        return false;
+    }
+    r.found = CausticRecord::Decision(found);
+    r.sizing = CausticRecord::Sizing(sizing);
+    r.wish.show = CausticWish::Show(show);
+    return true;
+}
+bool read_record(ByteReader& in, CausticRecord& r, std::uint32_t version) {
     std::uint8_t back = 0, decision = 0;
     std::vector<char> why;
     if (!in.value(r.part) || !in.value(r.chart) || !in.value(back) || !in.value(decision) || !in.value(r.particles) ||
         !in.value(r.contrast) || !in.value(r.dispersion) || !in.value(r.threshold) || !read_pair(in, r.extent) ||
         !in.value(r.width) || !in.value(r.height) || !in.array(why) || !in.array(r.boxes) || !in.value(r.power_texture) ||
         !in.value(r.power_mesh) || !in.value(r.bytes) || back > 1 ||
-        decision > std::uint8_t(CausticRecord::Decision::Uncharted)) {
+        decision > std::uint8_t(CausticRecord::Decision::SetToMesh)) {
         return false;
     }
     r.back = back != 0;
-    r.decision = CausticRecord::Decision(decision);
+    r.decision = r.found = CausticRecord::Decision(decision);
     r.why.assign(why.begin(), why.end());
-    return true;
+    return version == kOldest || read_wish(in, r);
 }
 
 } // namespace
@@ -317,7 +336,7 @@ Result<std::shared_ptr<const Solution>> decode_solution(std::span<const std::byt
     if (std::memcmp(header.magic, kMagic, sizeof kMagic) != 0) {
         return damaged();
     }
-    if (header.version != kVersion) {
+    if (header.version < kOldest || header.version > kVersion) {
         return fail("", "stored light", "it was written by another version of the program", "The light is computed again");
     }
     const auto packed = bytes.subspan(sizeof header);
@@ -373,7 +392,7 @@ Result<std::shared_ptr<const Solution>> decode_solution(std::span<const std::byt
     for (std::uint64_t i = 0; i < count; ++i) {
         CausticRecord record;
         std::uint32_t node = 0;
-        if (!in.value(node) || node >= nodes.size() || !read_record(in, record)) {
+        if (!in.value(node) || node >= nodes.size() || !read_record(in, record, header.version)) {
             return damaged();
         }
         record.node = nodes[node];

@@ -26,6 +26,7 @@ uniform int u_caustic_count;
 uniform vec4 u_caustic_bounds; // around all rectangles: low, high
 uniform float u_caustic_scale; // lux
 uniform float u_caustic_outline; // 1 = outline the rectangles
+uniform float u_caustic_grid;    // 1 = draw lines between texels
 #endif
 
 uniform vec4 u_base;    // linear colour and alpha
@@ -118,12 +119,13 @@ vec3 mapped(vec2 uv) {
 #endif
 
 #ifdef CAUSTICS
-// Sum of CausticTexture::irradiance(); `edge` is how much of a white outline (x) and of the dark line within it (y) is here.
-vec3 caustics(vec2 uv, vec2 pixel, out vec2 edge) {
+// Sum of CausticTexture::irradiance(); `edge` is how much of a white outline (x), of the dark line within it (y) and of a
+// line between texels (z) is here.
+vec3 caustics(vec2 uv, vec2 pixel, out vec3 edge) {
     bool near = uv == clamp(uv, u_caustic_bounds.xy, u_caustic_bounds.zw);
     vec2 texel = 1.0 / vec2(textureSize(u_caustic_image, 0));
     vec3 sum = vec3(0.0);
-    edge = vec2(0.0);
+    edge = vec3(0.0);
     for (int i = near ? 0 : u_caustic_count; i < u_caustic_count; ++i) {
         vec4 box = texelFetch(u_caustic_boxes, ivec2(0, i), 0);
         if (uv == clamp(uv, box.xy, box.zw)) {
@@ -135,10 +137,15 @@ vec3 caustics(vec2 uv, vec2 pixel, out vec2 edge) {
             // Thinner lines in boxes of a few pixels, which would be nothing but outline.
             vec2 size = (box.zw - box.xy) / pixel;
             float line = clamp(0.1 * min(size.x, size.y), 0.3, 2.0);
-            edge = max(edge, clamp(vec2(1.0, 1.75) * line - min(inside.x, inside.y), 0.0, 1.0));
+            edge.xy = max(edge.xy, clamp(vec2(1.0, 1.75) * line - min(inside.x, inside.y), 0.0, 1.0));
+            // Pixels to the nearest line; where texels are small the lines fade, for they would be a grey.
+            vec2 cell = size / place.zw;
+            vec2 away = (0.5 - abs(fract((uv - box.xy) / (box.zw - box.xy) * place.zw) - 0.5)) * cell;
+            float seen = smoothstep(3.0, 6.0, min(cell.x, cell.y));
+            edge.z = max(edge.z, seen * clamp(1.0 - min(away.x, away.y), 0.0, 1.0));
         }
     }
-    edge *= u_caustic_outline;
+    edge *= vec3(u_caustic_outline, u_caustic_outline, u_caustic_grid);
     return sum * u_caustic_scale;
 }
 #endif
@@ -169,7 +176,7 @@ void main() {
     irradiance += v_charted * mapped(v_light_uv);
 #endif
 #ifdef CAUSTICS
-    vec2 edge;
+    vec3 edge;
     irradiance += v_charted * caustics(v_light_uv, max(fwidth(v_light_uv), vec2(1e-9)), edge);
     edge *= v_charted;
 #endif
@@ -210,6 +217,7 @@ void main() {
     }
 #ifdef CAUSTICS
     // White, and dark within: seen on any light.
+    o_color = mix(o_color, vec4(0.1, 0.45, 0.9, 1.0), 0.7 * edge.z);
     o_color = mix(mix(o_color, vec4(0.0, 0.0, 0.0, 1.0), 0.6 * edge.y), vec4(1.0), edge.x);
 #endif
 }

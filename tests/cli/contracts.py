@@ -534,6 +534,18 @@ class Inspect(CliTest):
         self.assertTrue(any("texture" == r["decision"] for r in told["caustics"]), done.stdout[:2000])
         self.assertTrue(any(name.endswith(".exr") for name in os.listdir(out)))
 
+    def test_what_is_set_by_hand_is_done_saved_and_told(self):
+        script = self.write("hand.json", json.dumps({"edits": [{"kind": "caustics", "node": "Table", "show": "mesh"}]}))
+        project = self.path("by_hand.atrium")
+        self.run_cli("edit", self.BALL, "--script", script, "--quality", "draft", "-o", project)
+        told = json.loads(self.run_cli("inspect", project, "--json").stdout)
+        self.assertTrue(told["solution_stored"])
+        table = [r for r in told["caustics"] if r["surface"] == "Table"]
+        self.assertTrue(any(r["decision"] == "mesh: set by hand" and r["decision_by_itself"] == "texture" for r in table), table)
+        self.assertTrue(all(r["set_by_hand"] for r in table))
+        self.assertEqual(told["memory"]["caustic_textures"], 0)
+        self.assertIn("set by hand to mesh", self.run_cli("inspect", project).stdout)
+
     def test_nothing_specular_nothing_listed(self):
         done = self.run_cli("inspect", self.room, "--json", "--quality", "draft")
         told = json.loads(done.stdout)

@@ -32,14 +32,16 @@ public:
         double x = 0; ///< where node 0 is
         std::uint64_t revision = 0;
         SolverSettings::Quality quality = SolverSettings::Quality::Normal;
+        bool keep_landings = false;
+        bool skip_first_picture = false;
     };
 
     Result<std::shared_ptr<const Solution>> solve(const Scene& scene, const SolveOptions& options, const RunContext& context,
                                                   const std::function<void(std::shared_ptr<const Solution>)>& on_snapshot) {
         std::unique_lock lock(mutex_);
         const auto keys = scene.nodes.keys();
-        calls_.push_back(
-            {keys.empty() ? 0.0 : scene.nodes.find(keys[0])->transform.translation.x, options.revision, options.quality});
+        calls_.push_back({keys.empty() ? 0.0 : scene.nodes.find(keys[0])->transform.translation.x, options.revision,
+                          options.quality, options.keep_landings, options.skip_first_picture});
         changed_.notify_all();
         std::shared_ptr<const Solution> shown;
         for (int tick = 0;; ++tick) {
@@ -63,7 +65,14 @@ public:
             const Order order = orders_.front();
             orders_.pop_front();
             switch (order) {
-            case Order::Finish: return picture(options.revision, true);
+            case Order::Finish: {
+                auto done = std::make_shared<Solution>(*picture(options.revision, true));
+                done->statistics.particles_stored = particles;
+                if (options.keep_landings) {
+                    done->landings = std::make_shared<std::vector<SurfaceLandings>>();
+                }
+                return done;
+            }
             case Order::Throw: throw std::runtime_error("out of luck");
             case Order::Fail: return fail("", "", "no light at all");
             case Order::Null: return std::shared_ptr<const Solution>();
@@ -77,7 +86,8 @@ public:
         }
     }
 
-    std::atomic<bool> silent = false; ///< reports no progress
+    std::atomic<bool> silent = false;         ///< reports no progress
+    std::atomic<std::uint64_t> particles = 0; ///< in the solutions
 
     void order(Order order) {
         {
@@ -185,6 +195,29 @@ TEST_F(Session, SolvesALoadedDocumentAndShowsIt) {
     EXPECT_EQ(done.posted_revision, 7U);
     EXPECT_EQ(done.shown_revision, 7U);
     EXPECT_EQ(done.phase, "");
+}
+
+TEST_F(Session, LandingsAreAskedForOnceAndOnlyWhereThereAreAny) {
+    solve_first();
+    session->keep_landings(true);
+    EXPECT_EQ(session->status().state, State::Idle) << "no particle landed";
+    EXPECT_EQ(solver.calls(), 1U);
+    session->keep_landings(false);
+    solver.particles = 7;
+    session->post(move(1), 2, false);
+    solver.order(Order::Finish);
+    EXPECT_FALSE(solver.call(2).keep_landings);
+    wait_for([](const SessionStatus& s) { return s.state == State::Idle && s.shown_revision == 2; }, "the second light");
+    EXPECT_FALSE(session->latest()->landings);
+    session->keep_landings(true);
+    EXPECT_TRUE(solver.call(3).keep_landings);
+    EXPECT_TRUE(solver.call(3).skip_first_picture) << "what is on show is better";
+    solver.order(Order::Finish);
+    wait_for(State::Idle);
+    EXPECT_TRUE(session->latest()->landings);
+    session->keep_landings(true);
+    EXPECT_EQ(session->status().state, State::Idle) << "they are there";
+    EXPECT_EQ(solver.calls(), 3U);
 }
 
 TEST_F(Session, EstimatesTheRemainingTime) {

@@ -159,6 +159,10 @@ std::shared_ptr<Solution> with_caustics(const StoredRoom& room, const CausticTex
     record.power_texture = 12.25;
     record.power_mesh = 0.5;
     record.bytes = 4711;
+    record.found = CausticRecord::Decision::Coarse;
+    record.sizing = CausticRecord::Sizing::ByHand;
+    record.kernel = 0.0125F;
+    record.wish = {CausticWish::Show::Texture, 0.005F, 9.0F};
     out->caustic_records.push_back(record);
     record.node = out->surfaces.front()->node;
     record.decision = CausticRecord::Decision::Uncharted;
@@ -306,6 +310,14 @@ TEST(SolutionCodec, TruncatedOrOfAnotherVersionIsRefused) {
     const auto refused = decode_solution(newer, room.scene);
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message().find("version"), std::string::npos);
+    // Version 3 said less of what was decided about caustics, and nothing else differs.
+    std::vector<std::byte> older = bytes;
+    older[8] = std::byte(3);
+    const auto read = decode_solution(older, room.scene);
+    ASSERT_TRUE(read) << read.error().message();
+    EXPECT_EQ((*read)->surfaces.size(), room.solution->surfaces.size());
+    older[8] = std::byte(2);
+    EXPECT_FALSE(decode_solution(older, room.scene));
     // A header that claims four gigabytes allocates nothing.
     std::vector<std::byte> huge = bytes;
     std::memset(huge.data() + 16, 0xFF, 8);

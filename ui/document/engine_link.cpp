@@ -51,6 +51,11 @@ void EngineLink::cancel() { session_->cancel(); }
 
 void EngineLink::resume() { session_->resume(); }
 
+void EngineLink::keep_landings(bool on) {
+    session_->keep_landings(on);
+    Q_EMIT status_changed();
+}
+
 void EngineLink::on_edited(const SceneEdit& edit) {
     if (load_pending_) {
         load(nullptr); // takes the scene with this edit in it

@@ -24,6 +24,7 @@ public:
     void load(std::shared_ptr<const Solution> stored); ///< after Document::reset
     void cancel();
     void resume();
+    void keep_landings(bool on); ///< solutions tell where particles landed; off at first
 
 Q_SIGNALS:
     void solution_changed();

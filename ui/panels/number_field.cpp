@@ -65,6 +65,14 @@ void NumberField::set_suffix(const QString& suffix, const UnitSet& units) {
     }
 }
 
+void NumberField::set_absent(double value, const QString& text) {
+    absent_ = value;
+    absent_text_ = text;
+    if (!typing_) {
+        show_value();
+    }
+}
+
 void NumberField::attach_label(QLabel* label) {
     label_ = label;
     label->setCursor(Qt::SizeHorCursor);
@@ -73,10 +81,12 @@ void NumberField::attach_label(QLabel* label) {
 }
 
 void NumberField::show_value() {
+    const bool absent = !mixed_ && absent_ && value_ == *absent_;
     const QString text =
-        mixed_ ? QString()
-               : QString::fromStdString(format_number(value_ * format_.display_factor, format_.decimals)) + format_.suffix;
-    setPlaceholderText(mixed_ ? tr("mixed") : QString());
+        mixed_ || absent
+            ? QString()
+            : QString::fromStdString(format_number(value_ * format_.display_factor, format_.decimals)) + format_.suffix;
+    setPlaceholderText(mixed_ ? tr("mixed") : absent ? absent_text_ : QString());
     if (text != this->text()) {
         setText(text);
         setCursorPosition(0);
@@ -98,7 +108,9 @@ bool NumberField::commit_text() {
         typing_ = false;
         return true;
     }
-    const auto parsed = parse_quantity(text().toStdString(), format_.units);
+    const auto parsed = absent_ && text().trimmed().isEmpty()
+                            ? tl::expected<double, std::string>(*absent_ * format_.display_factor)
+                            : parse_quantity(text().toStdString(), format_.units);
     if (!parsed) {
         show_problem(tr("Not changed: %1.").arg(QString::fromStdString(parsed.error())));
         return false;
@@ -197,8 +209,8 @@ void NumberField::wheelEvent(QWheelEvent* event) {
 }
 
 void NumberField::step_by(double steps) {
-    if (isReadOnly() || mixed_) {
-        return;
+    if (isReadOnly() || mixed_ || (absent_ && value_ == *absent_ && !typing_)) {
+        return; // there is nothing to step from
     }
     if (typing_ && !commit_text()) {
         return;
@@ -235,7 +247,7 @@ void NumberField::end_burst(bool keep) {
 }
 
 bool NumberField::eventFilter(QObject* watched, QEvent* event) {
-    if (watched != label_ || !isEnabled() || mixed_) {
+    if (watched != label_ || !isEnabled() || mixed_ || (absent_ && value_ == *absent_)) {
         return QLineEdit::eventFilter(watched, event);
     }
     if (event->type() == QEvent::MouseButtonPress) {

@@ -7,6 +7,8 @@
 #include <QLineEdit>
 #include <QTimer>
 
+#include <optional>
+
 namespace atrium::ui {
 
 /// How a field shows and limits its value (in base units).
@@ -36,6 +38,8 @@ public:
     void set_value(double value); ///< what the document holds; does not disturb a text that is being typed
     void set_mixed();             ///< several objects with different values
     void set_suffix(const QString& suffix, const UnitSet& units);
+    /// `value` stands for "none": it is shown as a pale `text`, and an empty entry means it.
+    void set_absent(double value, const QString& text);
     [[nodiscard]] double value() const { return value_; }
     [[nodiscard]] bool mixed() const { return mixed_; }
     /// Dragging `label` sideways changes the value; Shift is ten times finer.
@@ -67,6 +71,8 @@ private:
     NumberFormat format_;
     double value_ = 0;
     bool mixed_ = false;
+    std::optional<double> absent_;
+    QString absent_text_;
     bool typing_ = false;
     bool burst_ = false; ///< a wheel burst or label drag is open
     QTimer burst_end_;

@@ -124,6 +124,7 @@ void GpuScene::release() {
     light_maps_.release(*gl_);
     caustics_.release(*gl_);
     forget_awaited();
+    forget_landings();
     gl_->glDeleteTextures(1, &white_);
     gl_->glDeleteTextures(1, &probe_.texture);
     gl_->glDeleteTextures(1, &next_probe_.texture);
@@ -159,7 +160,7 @@ unsigned GpuScene::variant_of(const ViewItem& item) {
             const bool back = has_back && light_maps_.get(*gl_, layer.direct_map_back) != nullptr;
             out |= front || back ? Mapped : 0U;
         }
-        if (shares_.caustic || caustic_boxes_) {
+        if (shares_.caustic || caustic_boxes_ || (texel_grid_ != nullptr && texel_grid_->contains(item.node))) {
             const bool front = caustics_.get(*gl_, layer.caustic_textures_front) != nullptr;
             const bool back = has_back && caustics_.get(*gl_, layer.caustic_textures_back) != nullptr;
             out |= front || back ? Caustic : 0U;
@@ -431,6 +432,7 @@ int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& fr
     gl.glCullFace(GL_BACK);
     set_shares(from.shares);
     caustic_boxes_ = from.caustic_boxes && !from.linear;
+    texel_grid_ = from.linear ? nullptr : from.texel_grid;
 
     const dmat4 view_projection = from.projection * from.rotation;
     struct Visible {

@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace atrium::ui {
 
@@ -25,11 +26,12 @@ struct DrawView {
     vec3 background{0.0F};  ///< display values behind everything, also in flat mirrors
     bool reflected = false; ///< looks into a flat mirror: `rotation` reflects, and what lies behind the mirror is cut off
     vec4 clip{0.0F};        ///< the mirror's plane relative to the eye, positive in front
-    vec4 window{-1.0F, -1.0F, 1.0F, 1.0F}; ///< what of the view is of use: x and y from, x and y to
-    Cutaway cutaway;                       ///< what of the walls is left out
-    vec3 filter{1.0F};                     ///< the mirror's reflectance
-    LightShares shares;                    ///< of the light to show; what emits belongs to the direct share
-    bool caustic_boxes = false;            ///< outline the caustic textures
+    vec4 window{-1.0F, -1.0F, 1.0F, 1.0F};                  ///< what of the view is of use: x and y from, x and y to
+    Cutaway cutaway;                                        ///< what of the walls is left out
+    vec3 filter{1.0F};                                      ///< the mirror's reflectance
+    LightShares shares;                                     ///< of the light to show; what emits belongs to the direct share
+    bool caustic_boxes = false;                             ///< outline the caustic textures
+    const std::unordered_set<NodeId>* texel_grid = nullptr; ///< draw the caustic texels of these nodes; null = of none
 };
 
 /// Needs the GL context current in every function but the constructor. UI thread only.
@@ -66,6 +68,10 @@ public:
     /// Flat silhouettes in one colour of the items that `wanted` accepts.
     void draw_mask(const ViewScene& view, const DrawView& from, const vec4& color,
                    const std::function<bool(const ViewItem&)>& wanted);
+    /// Particles where they landed on the nodes in `of`. What was uploaded for it is freed when `landings` is null.
+    void draw_landings(const ViewScene& view, const DrawView& from,
+                       const std::shared_ptr<const std::vector<SurfaceLandings>>& landings,
+                       const std::unordered_set<NodeId>& of, float pixel_ratio);
     /// Edges of the display meshes.
     void draw_edges(const ViewScene& view, const DrawView& from);
 
@@ -142,11 +148,15 @@ private:
     TextureCache textures_;
     LightMapCache light_maps_;
     CausticCache caustics_;
-    std::vector<std::shared_ptr<const LightMap>> awaited_; ///< of the solution that is shown next
-    std::vector<CausticList> awaited_caustics_;            ///< likewise
-    LightShares shares_;                                   ///< in the vertices' values
-    bool caustic_boxes_ = false;                           ///< in what is being drawn
+    std::vector<std::shared_ptr<const LightMap>> awaited_;   ///< of the solution that is shown next
+    std::vector<CausticList> awaited_caustics_;              ///< likewise
+    LightShares shares_;                                     ///< in the vertices' values
+    bool caustic_boxes_ = false;                             ///< in what is being drawn
+    const std::unordered_set<NodeId>* texel_grid_ = nullptr; ///< likewise
     unsigned white_ = 0;
+    std::shared_ptr<const std::vector<SurfaceLandings>> landings_;                     ///< that points_ are of
+    std::unordered_map<const SurfaceLandings*, std::pair<unsigned, unsigned>> points_; ///< vertex array and buffer
+    void forget_landings();
 
     struct Probe {
         unsigned texture = 0;

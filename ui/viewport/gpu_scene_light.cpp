@@ -138,6 +138,8 @@ void GpuScene::draw_mapped(const ViewItem& item, unsigned variant, const Geometr
             bind_map(program, back ? layer.direct_map_back : layer.direct_map_front);
         }
         if ((variant & Caustic) != 0) {
+            const bool grid = texel_grid_ != nullptr && texel_grid_->contains(item.node);
+            gl.glUniform1f(program.at("u_caustic_grid"), grid ? 1.0F : 0.0F);
             bind_caustics(program, back ? layer.caustic_textures_back : layer.caustic_textures_front);
         }
         gl.glDrawElements(GL_TRIANGLES, geometry.count, GL_UNSIGNED_INT, nullptr);

@@ -123,11 +123,13 @@ void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, i
     DrawView with_background = from;
     with_background.background = ground;
     with_background.caustic_boxes = in.caustic_boxes;
+    with_background.texel_grid = in.texel_grid ? &in.selected : nullptr;
     gpu_.begin_frame();
     gpu_.draw(in.view, in.scene, with_background);
     if (in.wireframe) {
         gpu_.draw_edges(in.view, from);
     }
+    gpu_.draw_landings(in.view, from, in.landings, in.selected, float(in.pixel_ratio));
     if (samples > 0) {
         resolved_.resize(gl, in.width, in.height, 0, GL_RGBA8, false);
         gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.framebuffer());

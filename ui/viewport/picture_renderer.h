@@ -20,8 +20,11 @@ struct FrameInput {
     LightShares shares;    ///< of the light to show
     bool wireframe = false;
     bool caustic_boxes = false; ///< outline the caustic textures
-    bool refine = false;        ///< smooth edges where the interactive picture goes without
-    int width = 1;              ///< device pixels
+    bool texel_grid = false;    ///< and the texels of those of the selected nodes
+    std::shared_ptr<const std::vector<SurfaceLandings>>
+        landings;        ///< of which those of the selected nodes are drawn; or null
+    bool refine = false; ///< smooth edges where the interactive picture goes without
+    int width = 1;       ///< device pixels
     int height = 1;
     double pixel_ratio = 1.0;
     unsigned framebuffer = 0; ///< to draw into

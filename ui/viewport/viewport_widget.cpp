@@ -2,7 +2,9 @@
 #include "ui/viewport/viewport_widget.h"
 
 #include "engine/view/tone.h"
+#include "ui/document/background.h"
 #include "ui/tools/transform_tool.h"
+#include "ui/viewport/look_at.h"
 #include "ui/viewport/markers.h"
 #include "ui/viewport/picture_renderer.h"
 
@@ -56,6 +58,11 @@ struct ViewportWidget::Impl : ToolHost {
     bool mean_is_final = false;
     bool wireframe = false;
     bool caustic_boxes = false;
+    bool texel_grid = false;
+    bool landings = false;
+    CausticView caustic_view = CausticView::Texture;
+    bool deriving = false;   ///< the light is being made ready for caustic_view
+    int document_number = 0; ///< rises with every other document
     bool cut_walls = true;
     LightShares shares;
     bool refine = false;
@@ -186,6 +193,9 @@ struct ViewportWidget::Impl : ToolHost {
             }
         }
         renderer.invalidate_mask();
+        if (texel_grid || landings) {
+            renderer.invalidate_picture();
+        }
         widget.update();
     }
     void set_hovered(NodeId id) {
@@ -202,6 +212,7 @@ struct ViewportWidget::Impl : ToolHost {
     }
     void document_reset() {
         cancel();
+        ++document_number;
         view.clear();
         solution.reset();
         stop_awaiting();
@@ -233,7 +244,38 @@ struct ViewportWidget::Impl : ToolHost {
     /// The old light stays until the new one's maps are uploaded, a slice in each turn of the event loop: a wall that waits
     /// for its sun would flicker.
     void take_solution() {
-        awaited = engine.solution();
+        const std::shared_ptr<const Solution> newest = engine.solution();
+        if (caustic_view == CausticView::Texture || !newest) {
+            take(newest);
+            return;
+        }
+        if (deriving) {
+            return; // it looks again when it is done
+        }
+        deriving = true;
+        run_in_background(
+            &widget,
+            [newest, view_as = caustic_view]() -> Result<std::shared_ptr<const Solution>> {
+                return shown_as(*newest, view_as);
+            },
+            [this, newest, view_as = caustic_view,
+             number = document_number](const Result<std::shared_ptr<const Solution>>& made) {
+                deriving = false;
+                if (!made) {
+                    take(engine.solution());
+                    return;
+                }
+                const bool wanted = view_as == caustic_view && number == document_number;
+                if (wanted) {
+                    take(*made);
+                }
+                if (!wanted || newest != engine.solution()) {
+                    take_solution();
+                }
+            });
+    }
+    void take(std::shared_ptr<const Solution> light) {
+        awaited = std::move(light);
         if (!awaited || renderer.uploaded(*awaited)) {
             show_awaited();
         } else {
@@ -482,6 +524,17 @@ void ViewportWidget::frame_selection() {
         impl_->frame(box);
     }
 }
+void ViewportWidget::look_at(const DBox3& box, const dvec3& focus, const dvec3& normal) {
+    if (box.empty()) {
+        return;
+    }
+    impl_->sync();
+    if (const auto camera = camera_towards(impl_->controller, impl_->view, box, focus, normal)) {
+        set_camera(*camera);
+    } else {
+        impl_->frame(box);
+    }
+}
 void ViewportWidget::frame_all() { impl_->frame(robust_bounds(impl_->doc.scene())); }
 
 void ViewportWidget::set_walk_mode(bool on) {
@@ -525,6 +578,29 @@ void ViewportWidget::set_caustic_boxes(bool on) {
         impl_->picture_changed();
     }
 }
+
+void ViewportWidget::set_texel_grid(bool on) {
+    if (on != impl_->texel_grid) {
+        impl_->texel_grid = on;
+        impl_->picture_changed();
+    }
+}
+
+void ViewportWidget::set_landings(bool on) {
+    if (on != impl_->landings) {
+        impl_->landings = on;
+        impl_->picture_changed();
+    }
+}
+
+void ViewportWidget::set_caustic_view(CausticView view) {
+    if (view != impl_->caustic_view) {
+        impl_->caustic_view = view;
+        impl_->take_solution();
+    }
+}
+CausticView ViewportWidget::caustic_view() const { return impl_->caustic_view; }
+std::shared_ptr<const Solution> ViewportWidget::shown_solution() const { return impl_->solution; }
 
 void ViewportWidget::set_cut_walls(bool on) {
     if (on != impl_->cut_walls) {
@@ -619,6 +695,8 @@ void ViewportWidget::paintGL() {
                   impl_->shares,
                   impl_->wireframe,
                   impl_->caustic_boxes,
+                  impl_->texel_grid,
+                  impl_->landings && impl_->solution ? impl_->solution->landings : nullptr,
                   impl_->refine,
                   std::max(1, int(std::lround(width() * ratio))),
                   std::max(1, int(std::lround(height() * ratio))),

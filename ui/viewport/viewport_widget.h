@@ -4,6 +4,7 @@
 #include "engine/view/still.h"
 #include "ui/document/document.h"
 #include "ui/document/engine_link.h"
+#include "ui/viewport/light_views.h"
 
 #include <QOpenGLWidget>
 
@@ -25,12 +26,20 @@ public:
     [[nodiscard]] ToolKind tool() const;
     void frame_selection(); ///< or everything when nothing is selected
     void frame_all();
+    /// Looks at `focus` on a surface with this normal (world, unit; zero: the direction of view stays) from where most of
+    /// `box` is in sight and nothing stands between; nothing happens when the box is empty.
+    void look_at(const DBox3& box, const dvec3& focus, const dvec3& normal);
     void set_walk_mode(bool on); ///< WASD and mouse look, eye at 1.6 m above the floor below; Esc leaves
     [[nodiscard]] bool walk_mode() const;
     void set_exposure(float ev); ///< stops, added to automatic exposure; never reaches the solver
     [[nodiscard]] float exposure() const;
     void set_wireframe(bool on);     ///< the display mesh's edges over the picture
     void set_caustic_boxes(bool on); ///< outlines of the caustic textures over the picture
+    void set_texel_grid(bool on);    ///< texels of the selected objects' caustic textures, where they are large enough
+    void set_landings(bool on);      ///< particles where they landed on the selected objects, as far as the light tells
+    void set_caustic_view(CausticView view); ///< the light as it is, or as other ways to show it would have it
+    [[nodiscard]] CausticView caustic_view() const;
+    [[nodiscard]] std::shared_ptr<const Solution> shown_solution() const; ///< the light in the picture; may be null
     void set_cut_walls(bool on); ///< from outside, leave out the walls and the ceiling in front of the room (the default)
     void set_light_shares(const LightShares& shares); ///< what of the light is shown; all by default
     [[nodiscard]] LightShares light_shares() const;

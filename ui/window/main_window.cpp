@@ -3,6 +3,8 @@
 #include "ui/actions/actions.h"
 #include "ui/actions/edit_controller.h"
 #include "ui/actions/icons.h"
+#include "ui/panels/caustic_panel.h"
+#include "ui/panels/caustic_places.h"
 #include "ui/panels/jobs_panel.h"
 #include "ui/panels/problems_panel.h"
 #include "ui/panels/properties_panel.h"
@@ -68,6 +70,11 @@ const std::pair<ActionId, NewObject> kAdd[] = {{ActionId::AddPolygon, NewObject:
                                                {ActionId::AddSpotLight, NewObject::SpotLight},
                                                {ActionId::AddSun, NewObject::Sun},
                                                {ActionId::AddAreaLight, NewObject::AreaLight}};
+
+const std::pair<ActionId, CausticView> kWays[] = {{ActionId::CausticsFlat, CausticView::Flat},
+                                                  {ActionId::CausticsOnMesh, CausticView::Mesh},
+                                                  {ActionId::CausticsInTextures, CausticView::Texture},
+                                                  {ActionId::CausticsWhole, CausticView::Whole}};
 
 } // namespace
 
@@ -167,6 +174,18 @@ void MainWindow::make_docks() {
     setTabPosition(Qt::RightDockWidgetArea, QTabWidget::North);
     resizeDocks({tree_dock, properties_dock}, {330, 450}, Qt::Vertical);
     resizeDocks({tree_dock, properties_dock}, {320, 320}, Qt::Horizontal);
+    // Wide rows want the width of the window; until they are asked for, the view has it all.
+    caustics_ = new CausticPanel(document_, *engine_);
+    auto* caustics_dock = dock("dock_caustics", tr("Caustics"), caustics_, Qt::BottomDockWidgetArea);
+    resizeDocks({caustics_dock}, {320}, Qt::Vertical);
+    caustics_dock->hide();
+    connect(caustics_, &CausticPanel::message, this, &MainWindow::say);
+    connect(caustics_, &CausticPanel::activated, this, [this](const CausticRow& row) {
+        if (const auto solution = engine_->solution()) {
+            const PiecePlace place = piece_place(document_.scene(), *solution, row);
+            viewport_->look_at(place.bounds, place.focus, place.normal);
+        }
+    });
 
     connect(tree_, &SceneTreePanel::activated, this, [this] { viewport_->frame_selection(); });
     connect(tree_, &SceneTreePanel::message, this, &MainWindow::say);
@@ -242,7 +261,13 @@ void MainWindow::make_menus() {
     auto* view = fill(tr("&View"),
                       {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap, ActionId::ExposureUp,
                        ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::ShowDirect, ActionId::ShowDiffuse,
-                       ActionId::ShowCaustic, gap, ActionId::Wireframe, ActionId::CausticBoxes, ActionId::CutWalls, gap});
+                       ActionId::ShowCaustic, gap, ActionId::Wireframe, ActionId::CutWalls, gap, ActionId::InspectCaustics,
+                       ActionId::CausticBoxes, ActionId::TexelGrid, ActionId::ParticleLandings});
+    auto* ways = view->addMenu(tr("Ca&ustics Shown As"));
+    for (const auto& [id, way] : kWays) {
+        ways->addAction(a[id]);
+    }
+    view->addSeparator();
     docks_menu_ = view->addMenu(tr("&Panels"));
     const QList<QDockWidget*> docks = findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly);
     for (QDockWidget* dock : docks) {
@@ -421,6 +446,27 @@ void MainWindow::connect_view() {
     on(ActionId::ExposureReset, [expose] { expose(0); });
     connect((*actions_)[ActionId::Wireframe], &QAction::toggled, viewport_, &ViewportWidget::set_wireframe);
     connect((*actions_)[ActionId::CausticBoxes], &QAction::toggled, viewport_, &ViewportWidget::set_caustic_boxes);
+    connect((*actions_)[ActionId::TexelGrid], &QAction::toggled, viewport_, &ViewportWidget::set_texel_grid);
+    connect((*actions_)[ActionId::ParticleLandings], &QAction::toggled, this, [this](bool on) {
+        engine_->keep_landings(on);
+        viewport_->set_landings(on);
+        if (on && document_.selection()->nodes().empty()) {
+            say(tr("Select an object to see the particles that landed on it."));
+        }
+    });
+    auto* ways = new QActionGroup(this);
+    for (const auto& [id, way] : kWays) {
+        ways->addAction((*actions_)[id]);
+        on(id, [this, shown = way] { viewport_->set_caustic_view(shown); });
+    }
+    (*actions_)[ActionId::CausticsInTextures]->setChecked(true);
+    on(ActionId::InspectCaustics, [this] {
+        if (auto* dock = findChild<QDockWidget*>(QStringLiteral("dock_caustics"))) {
+            dock->show();
+            dock->raise();
+            caustics_->focus_table();
+        }
+    });
     (*actions_)[ActionId::CutWalls]->setChecked(true);
     connect((*actions_)[ActionId::CutWalls], &QAction::toggled, viewport_, &ViewportWidget::set_cut_walls);
     QAction* direct = (*actions_)[ActionId::ShowDirect];

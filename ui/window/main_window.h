@@ -19,6 +19,7 @@ class QToolButton;
 namespace atrium::ui {
 
 class Actions;
+class CausticPanel;
 class EditController;
 class FileController;
 class ImportBar;
@@ -41,6 +42,7 @@ public:
     [[nodiscard]] ViewportWidget& viewport() { return *viewport_; }
     [[nodiscard]] FileController& files() { return *files_; }
     [[nodiscard]] SceneTreePanel& tree() { return *tree_; }
+    [[nodiscard]] CausticPanel& caustics() { return *caustics_; }
     [[nodiscard]] Recovery& recovery() { return *recovery_; }
     [[nodiscard]] QAction* action(ActionId id) const;
 
@@ -79,6 +81,7 @@ private:
     QStackedWidget* pages_ = nullptr;
     SceneTreePanel* tree_ = nullptr;
     PropertiesPanel* properties_ = nullptr;
+    CausticPanel* caustics_ = nullptr;
     QMenu* recent_menu_ = nullptr;
     QMenu* docks_menu_ = nullptr;
     QLabel* busy_text_ = nullptr;
