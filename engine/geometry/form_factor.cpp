@@ -23,48 +23,59 @@ double angle_over_cross(const dvec3& a, const dvec3& b, const dvec3& cross, doub
     return length > 0.0 ? std::atan2(length, along) / length : 0.0;
 }
 
+// For at most N corners: most polygons have three or four, and room for more would cost as much as the sum.
+template <std::size_t N> double form_factor(const dvec3& point, const dvec3& n, std::span<const vec3> polygon) {
+    std::array<dvec3, N + 1> corner;
+    std::array<double, N + 1> height{};
+    std::size_t count = polygon.size();
+    bool cut = false;
+    for (std::size_t i = 0; i < count; ++i) {
+        corner[i] = dvec3(polygon[i]) - point;
+        height[i] = glm::dot(corner[i], n);
+        cut = cut || height[i] < 0.0;
+    }
+    if (cut) {
+        // Sutherland-Hodgman against the horizon; a convex polygon gains at most one corner.
+        std::array<dvec3, N + 1> clipped;
+        count = 0;
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const std::size_t j = (i + 1) % polygon.size();
+            if (height[i] >= 0.0) {
+                clipped[count++] = corner[i];
+            }
+            if ((height[i] > 0.0 && height[j] < 0.0) || (height[i] < 0.0 && height[j] > 0.0)) {
+                clipped[count++] = corner[i] + (corner[j] - corner[i]) * (height[i] / (height[i] - height[j]));
+            }
+            if (count == clipped.size()) {
+                break;
+            }
+        }
+        corner = clipped;
+    }
+    if (count < 3) {
+        return 0.0;
+    }
+    std::array<double, N + 1> inverse; // of the corners' distances
+    for (std::size_t i = 0; i < count; ++i) {
+        inverse[i] = 1.0 / glm::length(corner[i]);
+    }
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t j = i + 1 < count ? i + 1 : 0;
+        const dvec3 c = glm::cross(corner[i], corner[j]);
+        sum += glm::dot(n, c) * angle_over_cross(corner[i], corner[j], c, inverse[i] * inverse[j]);
+    }
+    // Orientation of the corners only decides the sign.
+    return std::clamp(std::abs(sum) / (2.0 * kPiD), 0.0, 1.0);
+}
+
 } // namespace
 
 double form_factor_to_polygon(const vec3& point, const vec3& normal, std::span<const vec3> polygon) {
     constexpr std::size_t kMaxCorners = 12;
     ATRIUM_CHECK(polygon.size() <= kMaxCorners);
-    const dvec3 n(normal);
-    std::array<dvec3, kMaxCorners> corner;
-    std::array<double, kMaxCorners> height{};
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        corner[i] = dvec3(polygon[i]) - dvec3(point);
-        height[i] = glm::dot(corner[i], n);
-    }
-    // Sutherland-Hodgman against the horizon; a convex polygon gains at most one corner.
-    std::array<dvec3, kMaxCorners + 1> clipped;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const std::size_t j = (i + 1) % polygon.size();
-        if (height[i] >= 0.0) {
-            clipped[count++] = corner[i];
-        }
-        if ((height[i] > 0.0 && height[j] < 0.0) || (height[i] < 0.0 && height[j] > 0.0)) {
-            clipped[count++] = corner[i] + (corner[j] - corner[i]) * (height[i] / (height[i] - height[j]));
-        }
-        if (count == clipped.size()) {
-            break;
-        }
-    }
-    if (count < 3) {
-        return 0.0;
-    }
-    std::array<double, kMaxCorners + 1> inverse; // of the corners' distances
-    for (std::size_t i = 0; i < count; ++i) {
-        inverse[i] = 1.0 / glm::length(clipped[i]);
-    }
-    double sum = 0.0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t j = (i + 1) % count;
-        const dvec3 c = glm::cross(clipped[i], clipped[j]);
-        sum += glm::dot(n, c) * angle_over_cross(clipped[i], clipped[j], c, inverse[i] * inverse[j]);
-    }
-    // Orientation of the corners only decides the sign.
-    return std::clamp(std::abs(sum) / (2.0 * kPiD), 0.0, 1.0);
+    return polygon.size() <= 4 ? form_factor<4>(dvec3(point), dvec3(normal), polygon)
+                               : form_factor<kMaxCorners>(dvec3(point), dvec3(normal), polygon);
 }
 
 } // namespace atrium

@@ -39,6 +39,21 @@ double form_factor(const SurfacePoint& p, std::span<const vec3> corners, const M
     return count > 0 ? form_factor_to_polygon(p.position, p.normal, std::span(seen).first(count)) : 0.0;
 }
 
+// Form factor of a face that is small beside its distance and wholly above the horizon, by its middle: off by less than
+// the square of its angle over ten. Negative where it is none such.
+float far_factor(const SurfacePoint& p, const std::array<vec3, 3>& corner, const Face& face) {
+    constexpr float kSmall = 0.01F; // squared longest edge over squared distance
+    const vec3 d = (corner[0] + corner[1] + corner[2]) * (1.0F / 3.0F) - p.position;
+    const auto length2 = [](const vec3& v) { return glm::dot(v, v); };
+    const float edge2 =
+        std::max({length2(corner[1] - corner[0]), length2(corner[2] - corner[0]), length2(corner[2] - corner[1])});
+    const float d2 = length2(d), height = glm::dot(d, p.normal);
+    if (edge2 > kSmall * d2 || (height < 0.0F ? -1.0F : height * height) < edge2) {
+        return -1.0F;
+    }
+    return std::max(-height * glm::dot(d, face.normal), 0.0F) * face.area / (kPi * d2 * d2);
+}
+
 // Faces one by one; of many, evenly chosen ones stand for all.
 Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e, const SurfacePoint& p,
                      const MirrorSight* over) {
@@ -50,7 +65,8 @@ Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e,
         const auto corner = rays.triangle(face.surface, face.triangle);
         chosen += face.area;
         if (faces_point(corner[0], face.normal, p)) {
-            factor += float(form_factor(p, corner, over));
+            const float far = over == nullptr ? far_factor(p, corner, face) : -1.0F;
+            factor += far >= 0.0F ? far : float(form_factor(p, corner, over));
         }
     }
     return e.radiosity * std::min(factor * (e.area / chosen), 1.0F);
