@@ -229,8 +229,11 @@ void LightPart::take(const Request& request) {
     State state = State::Void;
     if (const auto place = sheets_.locate(request.sheet, request.at, request.reach)) {
         // Bright or dark: what shines into the gap under a lamp that lies on a ceiling is not the light of the ceiling.
-        state =
-            is_covered(sheets_.rays(), place->point, place->normal, settings_.cover_reach) ? State::Covered : State::Known;
+        state = state_of_other_parts(request);
+        if (state == State::Unknown) {
+            state = is_covered(sheets_.rays(), place->point, place->normal, settings_.cover_reach) ? State::Covered
+                                                                                                   : State::Known;
+        }
         light = state == State::Known ? part_.light(place->point, place->normal) : DirectSample{};
     }
     if (request.probe) {
@@ -242,6 +245,29 @@ void LightPart::take(const Request& request) {
     node.irradiance = light.irradiance;
     node.variance = light.variance;
     node.state = state;
+}
+
+// Whether a place is covered, from the parts that were sampled there before this one; Unknown where none was.
+LightNode::State LightPart::state_of_other_parts(const Request& request) const {
+    if (repairing_) {
+        return State::Unknown; // they need not have looked again
+    }
+    for (const LightPart& part : before_) {
+        if (request.probe) {
+            if (part.probe_level_ == probe_level_ && part.probes_[request.index].at == probes_[request.index].at) {
+                const Probe& there = part.probes_[request.index];
+                return there.covered ? State::Covered : there.seen.known ? State::Known : State::Unknown;
+            }
+            continue;
+        }
+        const LightNode& own = cells_.nodes[request.index];
+        const std::uint32_t n = part.cells_.find(own.sheet, own.x, own.y);
+        if (n != LightCells::kNone &&
+            (part.cells_.nodes[n].state == State::Known || part.cells_.nodes[n].state == State::Covered)) {
+            return part.cells_.nodes[n].state;
+        }
+    }
+    return State::Unknown;
 }
 
 // ---- which cells are rough

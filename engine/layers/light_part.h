@@ -64,6 +64,7 @@ private:
     void ask_for_probe(const LightCell& cell);
     bool sample(double from, double to);
     void take(const Request& request);
+    [[nodiscard]] LightNode::State state_of_other_parts(const Request& request) const;
 
     [[nodiscard]] std::optional<vec3> place_of(std::uint32_t sheet, const vec2& steps) const;
     [[nodiscard]] bool may_change(const LightChange& change, std::uint32_t sheet, const vec2& steps, float radius) const;
@@ -111,6 +112,7 @@ private:
     std::vector<std::size_t> first_probe_; ///< per sheet; a place for a probe per cell of probe_level_, row by row
     std::vector<Probe> probes_;
     std::vector<Request> requests_;
+    bool repairing_ = false;
     bool coarse_repair_ = false; ///< the repair at hand looks at the coarsest nodes only
     std::size_t asked_ = 0;      ///< nodes that were asked for
     std::size_t taken_ = 0;      ///< samples

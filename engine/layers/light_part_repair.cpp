@@ -310,6 +310,7 @@ std::array<LightCell, 4> LightPart::divide_smoothly(const LightCell& cell) {
 
 bool LightPart::repair(const LightChange& change, const RunContext& context, std::vector<std::uint8_t>& changed_sheets) {
     context_ = &context;
+    repairing_ = true;
     if (part_.soft && cells_.first_level() < probe_level_) {
         divide_around(change);
     }
