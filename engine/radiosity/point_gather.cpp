@@ -73,7 +73,7 @@ Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e,
 }
 
 // What can be seen of patches and faces over a mirror is cut out exactly; clusters count as if all of them could be seen.
-CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, const SurfacePoint& p,
+CutNode evaluate(const Hierarchy& h, const RayScene& rays, const FarFaces* far, std::uint32_t index, const SurfacePoint& p,
                  const MirrorSight* over) {
     const Element& e = h.elements[index];
     CutNode out;
@@ -101,6 +101,11 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, 
     }
     const float r = glm::length(d);
     if (e.kind == Kind::Faces) {
+        const float factor = far != nullptr && over == nullptr ? far->factor(h, index, p) : -1.0F;
+        if (factor >= 0.0F) {
+            out.contribution = e.radiosity * factor;
+            return out;
+        }
         if (r < 4.0F * e.radius || over != nullptr) {
             out.contribution = faces_one_by_one(h, rays, e, p, over);
             return out;
@@ -255,7 +260,7 @@ void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& sett
     const auto smaller_error = [](const CutNode& a, const CutNode& b) {
         return a.error < b.error || (a.error == b.error && a.element > b.element);
     };
-    std::vector<CutNode> cut{evaluate(h_, rays_, 0, p, over)};
+    std::vector<CutNode> cut{evaluate(h_, rays_, far_, 0, p, over)};
     std::vector<CutNode> done; // nothing below them would change the result
     float total = luminance(cut[0].contribution + out.irradiance);
     while (!cut.empty() && cut.size() + done.size() < settings.max_cut) {
@@ -274,7 +279,7 @@ void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& sett
             continue;
         }
         for (std::uint32_t k = 0; k < e.child_count; ++k) {
-            const CutNode child = evaluate(h_, rays_, e.first_child + k, p, over);
+            const CutNode child = evaluate(h_, rays_, far_, e.first_child + k, p, over);
             const float light = luminance(child.contribution);
             total += light;
             if (child.error > 0.0F) {

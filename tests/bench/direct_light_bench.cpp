@@ -74,7 +74,9 @@ public:
         if (std::any_of(named.begin(), named.end(), [](std::uint8_t f) { return f != 0; })) {
             emitters_ = only_flagged(hierarchy_, named, true);
         }
-        lamps_ = std::make_unique<PointGather>(emitters_, rays_);
+        far_lamps_ = std::make_unique<FarFaces>(emitters_, rays_);
+        lamps_ = std::make_unique<PointGather>(emitters_, rays_, nullptr, far_lamps_.get());
+        lamps_closely_ = std::make_unique<PointGather>(emitters_, rays_);
         charts_ = chart_surfaces(rays_, quality_.charts);
         for (std::uint32_t i = 0; i < charts_.size(); ++i) {
             if (shows_no_irradiance(rays_.material(i))) {
@@ -130,7 +132,7 @@ private:
         if (!emitters_.empty()) {
             add(
                 "emitters", [this](const vec3& p, const vec3& n) { return lamps_->irradiance(p, n, gather_); },
-                [this](const vec3& p, const vec3& n) { return lamps_->irradiance(p, n, best_); }, false, false);
+                [this](const vec3& p, const vec3& n) { return lamps_closely_->irradiance(p, n, best_); }, false, false);
         }
         if (!mirrors_.empty() && (!punctual_.lights().empty() || !emitters_.empty())) {
             add(
@@ -325,7 +327,8 @@ private:
     MirrorLight mirrors_;
     QualitySettings quality_;
     Hierarchy hierarchy_, emitters_;
-    std::unique_ptr<PointGather> lamps_;
+    std::unique_ptr<FarFaces> far_lamps_;
+    std::unique_ptr<PointGather> lamps_, lamps_closely_;
     std::vector<SurfaceCharts> charts_;
     DirectMapSettings settings_;
     GatherSettings gather_, best_;
