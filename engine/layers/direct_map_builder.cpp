@@ -3,6 +3,7 @@
 #include "engine/base/checks.h"
 #include "engine/layers/light_map_assembly.h"
 #include "engine/layers/light_part.h"
+#include "engine/layers/near_things.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,8 +61,13 @@ struct LiveDirectMaps::Impl {
 
     DirectMaps build(double from, double to) {
         parts_.reserve(lights_.size());
+        const bool soft = std::any_of(lights_.begin(), lights_.end(), [](const DirectPart& p) { return p.soft; });
+        if (soft && settings_.first_level > 0) {
+            near_ = cells_near_things(sheets_, std::min(settings_.first_level, settings_.max_level), settings_.max_level,
+                                      *context_);
+        }
         for (std::size_t i = 0; i < lights_.size(); ++i) {
-            LightPart part(sheets_, lights_[i], parts_, settings_, budget_, *context_);
+            LightPart part(sheets_, lights_[i], parts_, near_, settings_, budget_, *context_);
             const double step = (to - from) / double(lights_.size());
             if (!part.run(from + step * double(i), from + step * double(i + 1))) {
                 return {};
@@ -197,6 +203,7 @@ private:
     DirectMapSettings settings_;
     const RunContext* context_; ///< of the call at hand
     TileBudget budget_;
+    std::vector<LightCell> near_; ///< that soft parts divide at once
     std::vector<LightPart> parts_;
     std::vector<SheetPlace> places_;    ///< of all sheets
     std::vector<std::uint8_t> changed_; ///< per sheet: samples are new that no map shows yet

@@ -11,6 +11,9 @@ namespace {
 
 using State = LightNode::State;
 
+// Large cells of soft parts are few: their light may as well be right, so they are judged by less than the contrast asked
+// for and in dimmer light.
+constexpr float kLargeCells = 0.5F;
 // Metres: cells that a covered place and an open one share are divided down to this, since a shadow may begin between them.
 constexpr float kCoverEdge = 0.04F;
 constexpr std::size_t kGrain = 32;
@@ -18,16 +21,17 @@ constexpr std::size_t kGrain = 32;
 } // namespace
 
 LightPart::LightPart(const LightSheets& sheets, const DirectPart& part, const std::vector<LightPart>& before,
-                     const DirectMapSettings& settings, TileBudget& budget, const RunContext& context)
-    : sheets_(sheets), part_(part), before_(before), settings_(settings), budget_(budget), context_(&context),
-      contrast_(settings.contrast),
+                     const std::vector<LightCell>& near, const DirectMapSettings& settings, TileBudget& budget,
+                     const RunContext& context)
+    : sheets_(sheets), part_(part), before_(before), near_(near), settings_(settings), budget_(budget), context_(&context),
       finest_(part.soft ? std::max(settings.first_level, settings.max_level - std::min(settings.max_level, 2U))
                         : settings.max_level),
-      cells_(settings.first_level, settings.max_level) {
+      probe_level_(std::min(settings.first_level, settings.max_level)),
+      cells_(part.soft ? 0 : settings.first_level, settings.max_level) {
     for (const LightSheet& s : sheets.sheets()) {
         cells_.add_sheet(s.chart->tiles_u, s.chart->tiles_v, s.used);
         first_probe_.push_back(probes_.size());
-        probes_.resize(probes_.size() + (s.used.size() << (2 * cells_.first_level())));
+        probes_.resize(probes_.size() + (s.used.size() << (2 * probe_level_)));
     }
 }
 
@@ -70,7 +74,7 @@ void LightPart::leave_out_dark_sheets(std::vector<LightCell>& fresh) const {
         lit[n.sheet] |= max_component(n.irradiance) > 0.0F ? 1 : 0;
     }
     for (const LightCell& c : fresh) {
-        lit[c.sheet] |= probes_[probe_index(c)].seen.light > 0.0F ? 1 : 0;
+        for_probes(c, [&](const Probe& p, const vec2&) { lit[c.sheet] |= p.seen.light > 0.0F ? 1 : 0; });
     }
     std::erase_if(fresh, [&](const LightCell& c) { return lit[c.sheet] == 0; });
 }
@@ -103,13 +107,33 @@ std::vector<LightCell> LightPart::first_cells() {
             ask_for_nodes(level);
             for (std::uint32_t k = 0; k < n * n; ++k) {
                 fresh.push_back({i, x + k % n * s, y + k / n * s, level});
-                if (!part_.soft) {
-                    ask_for_probe(fresh.back());
-                }
             }
         }
     }
+    if (level < probe_level_) {
+        divide_near_things(fresh);
+    }
+    for (const LightCell& c : fresh) {
+        if (!part_.soft || c.level < probe_level_) {
+            ask_for_probe(c);
+        }
+    }
     return fresh;
+}
+
+// Replaces whole tiles by their parts where things stand close.
+void LightPart::divide_near_things(std::vector<LightCell>& fresh) {
+    for (const LightCell& c : near_) {
+        cells_.split(c);
+        ask_for_nodes(c.level + 1);
+    }
+    std::vector<LightCell> leaves;
+    std::vector<LightCell> out;
+    for (const LightCell& tile : fresh) {
+        cells_.leaves(tile.sheet, tile.x >> cells_.max_level(), tile.y >> cells_.max_level(), leaves);
+        out.insert(out.end(), leaves.begin(), leaves.end());
+    }
+    fresh.swap(out);
 }
 
 vec2 LightPart::metres_per_step(std::uint32_t sheet) const {
@@ -121,10 +145,23 @@ float LightPart::edge_metres(const LightCell& cell) const {
     return float(cells_.steps(cell.level)) * std::max(step.x, step.y);
 }
 
-std::size_t LightPart::probe_index(const LightCell& cell) const {
-    const std::uint32_t first = cells_.steps(cells_.first_level());
-    const std::size_t row = std::size_t(sheets_.sheets()[cell.sheet].chart->tiles_u) << cells_.first_level();
-    return first_probe_[cell.sheet] + cell.y / first * row + cell.x / first;
+std::size_t LightPart::probe_index(std::uint32_t sheet, std::uint32_t x, std::uint32_t y) const {
+    const std::uint32_t edge = cells_.steps(probe_level_);
+    const std::size_t row = std::size_t(sheets_.sheets()[sheet].chart->tiles_u) << probe_level_;
+    return first_probe_[sheet] + y / edge * row + x / edge;
+}
+
+template <class Visit> void LightPart::for_probes(const LightCell& c, const Visit& visit) const {
+    const std::uint32_t s = cells_.steps(c.level), edge = cells_.steps(probe_level_);
+    for (std::uint32_t y = c.y; y < c.y + s; y += edge) {
+        for (std::uint32_t x = c.x; x < c.x + s; x += edge) {
+            const Probe& probe = probes_[probe_index(c.sheet, x, y)];
+            const vec2 at = probe.at - vec2(float(c.x), float(c.y));
+            if (at.x >= 0.0F && at.y >= 0.0F && at.x < float(s) && at.y < float(s)) {
+                visit(probe, at);
+            }
+        }
+    }
 }
 
 // Nodes that were added since the last call; `level` is that of the cells they were added for.
@@ -141,7 +178,7 @@ void LightPart::ask_for_nodes(unsigned level) {
     }
 }
 
-// Somewhere in a cell of the first level, by a plastic-number lattice: along any row and any column of cells the places
+// Somewhere in a cell, by a plastic-number lattice: along any row and any column of cells the places
 // are spread evenly, so that a streak of light between the nodes is soon met whichever way it runs.
 void LightPart::ask_for_probe(const LightCell& c) {
     const auto s = float(cells_.steps(c.level));
@@ -149,8 +186,9 @@ void LightPart::ask_for_probe(const LightCell& c) {
     const auto fraction = [](double x) { return float(x - std::floor(x)); };
     const vec2 inside(fraction(0.5 + 0.7548776662 * i + 0.6180339887 * j),
                       fraction(0.5 + 0.6180339887 * i + 0.5698402910 * j));
-    const auto index = std::uint32_t(probe_index(c));
-    probes_[index].at = vec2(float(c.x), float(c.y)) + inside * s;
+    const vec2 at = vec2(float(c.x), float(c.y)) + inside * s;
+    const auto index = std::uint32_t(probe_index(c.sheet, std::uint32_t(at.x), std::uint32_t(at.y)));
+    probes_[index].at = at;
     Request r;
     r.sheet = c.sheet;
     r.index = index;
@@ -191,8 +229,11 @@ void LightPart::take(const Request& request) {
     State state = State::Void;
     if (const auto place = sheets_.locate(request.sheet, request.at, request.reach)) {
         // Bright or dark: what shines into the gap under a lamp that lies on a ceiling is not the light of the ceiling.
-        state =
-            is_covered(sheets_.rays(), place->point, place->normal, settings_.cover_reach) ? State::Covered : State::Known;
+        state = state_of_other_parts(request);
+        if (state == State::Unknown) {
+            state = is_covered(sheets_.rays(), place->point, place->normal, settings_.cover_reach) ? State::Covered
+                                                                                                   : State::Known;
+        }
         light = state == State::Known ? part_.light(place->point, place->normal) : DirectSample{};
     }
     if (request.probe) {
@@ -206,11 +247,40 @@ void LightPart::take(const Request& request) {
     node.state = state;
 }
 
+// Whether a place is covered, from the parts that were sampled there before this one; Unknown where none was.
+LightNode::State LightPart::state_of_other_parts(const Request& request) const {
+    if (repairing_) {
+        return State::Unknown; // they need not have looked again
+    }
+    for (const LightPart& part : before_) {
+        if (request.probe) {
+            if (part.probe_level_ == probe_level_ && part.probes_[request.index].at == probes_[request.index].at) {
+                const Probe& there = part.probes_[request.index];
+                return there.covered ? State::Covered : there.seen.known ? State::Known : State::Unknown;
+            }
+            continue;
+        }
+        const LightNode& own = cells_.nodes[request.index];
+        const std::uint32_t n = part.cells_.find(own.sheet, own.x, own.y);
+        if (n != LightCells::kNone &&
+            (part.cells_.nodes[n].state == State::Known || part.cells_.nodes[n].state == State::Covered)) {
+            return part.cells_.nodes[n].state;
+        }
+    }
+    return State::Unknown;
+}
+
 // ---- which cells are rough
 
+// Error of the interpolation in a cell, relative to the light there, that asks for no division yet.
+float LightPart::allowed(const LightCell& c) const {
+    return c.level < probe_level_ ? kLargeCells * settings_.contrast : settings_.contrast;
+}
+
 // A difference that the samples' own noise explains is no reason to look closer: it would be noise again.
-float LightPart::relative(std::uint32_t sheet, float difference, float variance, float light) const {
-    return difference > 2.0F * std::sqrt(variance) ? difference / std::max(light, floor_[sheet]) : 0.0F;
+float LightPart::relative(const LightCell& cell, float difference, float variance, float light) const {
+    const float floor = cell.level < probe_level_ ? kLargeCells * floor_[cell.sheet] : floor_[cell.sheet];
+    return difference > 2.0F * std::sqrt(variance) ? difference / std::max(light, floor) : 0.0F;
 }
 
 // Error of linear interpolation from a to b, judged by the nodes before and behind them: half the lesser of the two
@@ -230,7 +300,7 @@ float LightPart::bend(const LightCell& c, const LightGuess& a, const LightGuess&
     } else if (before.known || behind.known) {
         least = before.known ? first : second;
     }
-    return relative(c.sheet, 0.3F * least, 0.25F * (a.variance + b.variance), light);
+    return relative(c, 0.3F * least, 0.25F * (a.variance + b.variance), light);
 }
 
 // Whether this part shines at a cell or one beside it: only there can an edge begin at what covers the surface.
@@ -256,11 +326,11 @@ float LightPart::change_at_cover(const LightCell& c, std::uint32_t known, std::u
         return 0.0F;
     }
     const float there = luminance(k.irradiance);
-    return relative(c.sheet, 0.3F * std::abs(before.light - there), 0.1F * (before.variance + k.variance),
+    return relative(c, 0.3F * std::abs(before.light - there), 0.1F * (before.variance + k.variance),
                     std::max(light, before.light));
 }
 
-// How far interpolation in a cell is off, relative to the light; above contrast_ it is to be divided.
+// How far interpolation in a cell is off, relative to the light; above allowed() it is to be divided.
 float LightPart::error(const LightCell& c) const {
     const auto corner = cells_.corners(c);
     const std::uint32_t s = cells_.steps(c.level);
@@ -279,11 +349,15 @@ float LightPart::error(const LightCell& c) const {
     }
     const float others = other_light(c);
     light += others;
-    const Probe& probe = probes_[probe_index(c)];
-    const vec2 at = probe.at - vec2(float(c.x), float(c.y));
-    const bool probed = at.x >= 0.0F && at.y >= 0.0F && at.x < float(s) && at.y < float(s);
-    const bool wide = edge_metres(c) > kCoverEdge;
-    float worst = wide && (covered > 0 || (probed && probe.covered)) && lit_around(c) ? 2.0F * contrast_ : 0.0F;
+    bool hidden = covered > 0;
+    float worst = 0.0F;
+    for_probes(c, [&](const Probe& probe, const vec2& at) {
+        hidden = hidden || probe.covered;
+        worst = probe.seen.known ? std::max(worst, off(c, probe.seen, at.x, at.y)) : worst;
+    });
+    if (hidden && edge_metres(c) > kCoverEdge && lit_around(c)) {
+        worst = std::max(worst, 2.0F * allowed(c));
+    }
     // Edges of the cell as pairs of corners: two along u, two along v.
     static constexpr std::size_t kEdges[4][2] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}};
     for (std::size_t e = 0; e < 4; ++e) {
@@ -303,12 +377,9 @@ float LightPart::error(const LightCell& c) const {
             const LightNode& m = cells_.nodes[middle];
             const float there = luminance(m.irradiance);
             worst =
-                std::max(worst, relative(c.sheet, std::abs(there - 0.5F * (a.light + b.light)),
+                std::max(worst, relative(c, std::abs(there - 0.5F * (a.light + b.light)),
                                          m.variance + 0.25F * (a.variance + b.variance), std::max(light, there + others)));
         }
-    }
-    if (probed && probe.seen.known) {
-        worst = std::max(worst, off(c, probe.seen, at.x, at.y));
     }
     return worst;
 }
@@ -316,7 +387,7 @@ float LightPart::error(const LightCell& c) const {
 // How far interpolation in a cell is off what was seen at a place in it (steps from its corner).
 float LightPart::off(const LightCell& c, const LightGuess& seen, float dx, float dy) const {
     const LightGuess guess = cells_.interpolate(c, dx, dy);
-    return guess.known ? relative(c.sheet, std::abs(seen.light - guess.light), seen.variance + guess.variance,
+    return guess.known ? relative(c, std::abs(seen.light - guess.light), seen.variance + guess.variance,
                                   std::max(seen.light, guess.light) + other_light(c))
                        : 0.0F;
 }
@@ -345,7 +416,7 @@ void LightPart::examine(const std::vector<LightCell>& fresh, std::vector<Rough>&
         }
     });
     for (std::size_t i = 0; i < fresh.size(); ++i) {
-        if (errors[i] > contrast_) {
+        if (errors[i] > allowed(fresh[i])) {
             rough.push_back({fresh[i], errors[i]});
         }
     }
@@ -365,7 +436,7 @@ void LightPart::look_beside(std::size_t first_new, std::vector<Rough>& rough) co
     });
     for (const auto& four : found) {
         for (const Rough& r : four) {
-            if (r.error > contrast_) {
+            if (r.error > allowed(r.cell)) {
                 rough.push_back(r);
             }
         }
@@ -382,7 +453,7 @@ LightPart::Rough LightPart::beside(const LightNode& n, std::size_t quadrant) con
         return {}; // its own corner
     }
     if (n.state == State::Covered) {
-        return {*cell, edge_metres(*cell) > kCoverEdge && lit_around(*cell) ? 2.0F * contrast_ : 0.0F};
+        return {*cell, edge_metres(*cell) > kCoverEdge && lit_around(*cell) ? 2.0F * allowed(*cell) : 0.0F};
     }
     return {*cell, off(*cell, {luminance(n.irradiance), n.variance, true}, float(dx), float(dy))};
 }

@@ -15,9 +15,11 @@ namespace atrium {
 /// Cells divided as the light asks for. Engine thread; parallel inside.
 class LightPart {
 public:
-    /// All arguments must outlive it. `before` are parts that are done: errors are judged against their light too.
+    /// All arguments must outlive it. `before` are parts that are done: errors are judged against their light too. `near`
+    /// are the cells that soft parts divide at once: see cells_near_things().
     LightPart(const LightSheets& sheets, const DirectPart& part, const std::vector<LightPart>& before,
-              const DirectMapSettings& settings, TileBudget& budget, const RunContext& context);
+              const std::vector<LightCell>& near, const DirectMapSettings& settings, TileBudget& budget,
+              const RunContext& context);
 
     /// Samples and divides until all is smooth, as fine as allowed, or the budget is spent; false when asked to stop.
     bool run(double progress_from, double progress_to);
@@ -43,7 +45,7 @@ private:
         vec2 at{0.0F};      ///< metres along the chart
         float reach = 0.0F; ///< metres: with no triangle within them the place is away from the surface
     };
-    /// A sample inside a cell of the first level, at a scattered place: what lies between the nodes.
+    /// A sample inside a cell that starts out undivided, at a scattered place: what lies between the nodes.
     struct Probe {
         vec2 at{0.0F}; ///< steps
         LightGuess seen;
@@ -56,22 +58,27 @@ private:
     };
 
     std::vector<LightCell> first_cells();
+    void divide_near_things(std::vector<LightCell>& fresh);
     void leave_out_dark_sheets(std::vector<LightCell>& fresh) const;
     void ask_for_nodes(unsigned level);
     void ask_for_probe(const LightCell& cell);
     bool sample(double from, double to);
     void take(const Request& request);
+    [[nodiscard]] LightNode::State state_of_other_parts(const Request& request) const;
 
     [[nodiscard]] std::optional<vec3> place_of(std::uint32_t sheet, const vec2& steps) const;
     [[nodiscard]] bool may_change(const LightChange& change, std::uint32_t sheet, const vec2& steps, float radius) const;
     [[nodiscard]] bool may_change_round(const LightChange& change, std::uint32_t surface) const;
     [[nodiscard]] std::vector<std::uint8_t> tiles_to_look_at(const LightChange& change) const;
+    void divide_around(const LightChange& change);
+    std::array<LightCell, 4> divide_smoothly(const LightCell& cell);
     void keep_most_seen(const LightChange& change, std::size_t most, std::vector<std::uint32_t>& nodes) const;
     std::vector<std::uint32_t> ask_again(const LightChange& change);
     void spread_change(const std::vector<std::uint32_t>& asked, const std::vector<LightNode>& before);
     [[nodiscard]] std::vector<LightCell> cells_around(const std::vector<std::uint32_t>& changed) const;
     void find_floors();
-    [[nodiscard]] float relative(std::uint32_t sheet, float difference, float variance, float light) const;
+    [[nodiscard]] float allowed(const LightCell& cell) const;
+    [[nodiscard]] float relative(const LightCell& cell, float difference, float variance, float light) const;
     [[nodiscard]] float bend(const LightCell& cell, const LightGuess& a, const LightGuess& b, const LightNode& start,
                              bool along_u, float light) const;
     [[nodiscard]] bool lit_around(const LightCell& cell) const;
@@ -87,21 +94,25 @@ private:
 
     [[nodiscard]] vec2 metres_per_step(std::uint32_t sheet) const;
     [[nodiscard]] float edge_metres(const LightCell& cell) const;
-    [[nodiscard]] std::size_t probe_index(const LightCell& cell) const;
+    [[nodiscard]] std::size_t probe_index(std::uint32_t sheet, std::uint32_t x, std::uint32_t y) const;
+    /// Calls visit(probe, place in steps from the cell's corner) for what was probed in a cell.
+    template <class Visit> void for_probes(const LightCell& cell, const Visit& visit) const;
 
     const LightSheets& sheets_;
     const DirectPart& part_;
     const std::vector<LightPart>& before_;
+    const std::vector<LightCell>& near_;
     const DirectMapSettings& settings_;
     TileBudget& budget_;
     const RunContext* context_; ///< of the call at hand
-    float contrast_;            ///< of this part: error of the interpolation that asks for finer cells
     std::vector<float> floor_;  ///< lux, per sheet: errors are judged against at least this
     unsigned finest_;           ///< level below which this part's cells are not divided
+    unsigned probe_level_;      ///< a probe for each cell of this level at most; soft parts have coarser cells too
     LightCells cells_;
-    std::vector<std::size_t> first_probe_; ///< per sheet; a probe per cell of the first level, row by row
+    std::vector<std::size_t> first_probe_; ///< per sheet; a place for a probe per cell of probe_level_, row by row
     std::vector<Probe> probes_;
     std::vector<Request> requests_;
+    bool repairing_ = false;
     bool coarse_repair_ = false;      ///< the repair at hand looks at the coarsest nodes only
     std::vector<std::uint8_t> stale_; ///< per node (those beyond its end: 0): left out or guessed by a repair in a hurry
     std::size_t asked_ = 0;           ///< nodes that were asked for

@@ -116,7 +116,7 @@ void LightPart::keep_most_seen(const LightChange& change, std::size_t most, std:
 std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
     const Most& most = change.exact ? kExact : kInAHurry;
     const std::vector<std::uint8_t> tiles = tiles_to_look_at(change);
-    const std::uint32_t coarse = cells_.steps(cells_.first_level()) - 1;
+    const std::uint32_t coarse = cells_.steps(probe_level_) - 1;
     // Nodes on a common edge belong to the tile behind it; the tile before it is asked too.
     const auto on_tile = [&](std::uint32_t sheet, std::uint32_t x, std::uint32_t y) {
         const Chart& chart = *sheets_.sheets()[sheet].chart;
@@ -198,32 +198,41 @@ std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
 
 // Soft light changes slowly: what the coarsest nodes say of the change, the finer ones between them follow.
 void LightPart::spread_change(const std::vector<std::uint32_t>& asked, const std::vector<LightNode>& before) {
-    const std::uint32_t s = cells_.steps(cells_.first_level());
     std::vector<std::uint32_t> place(cells_.nodes.size(), LightCells::kNone); // of a node in `asked`
     for (std::uint32_t k = 0; k < asked.size(); ++k) {
         place[asked[k]] = k;
     }
-    const auto difference = [&](std::uint32_t sheet, std::uint32_t x, std::uint32_t y) {
-        const std::uint32_t n = cells_.find(sheet, x, y);
+    const auto difference = [&](std::uint32_t n) {
         if (n == LightCells::kNone || place[n] == LightCells::kNone || !cells_.nodes[n].known() ||
             !before[place[n]].known()) {
             return Rgb(0.0F);
         }
         return cells_.nodes[n].irradiance - before[place[n]].irradiance;
     };
+    const std::uint32_t finest = cells_.steps(probe_level_) - 1;
     parallel_chunks(cells_.nodes.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context_->should_stop(); ++i) {
             LightNode& n = cells_.nodes[i];
-            if (((n.x | n.y) & (s - 1)) == 0 || !n.known()) {
+            if (((n.x | n.y) & finest) == 0 || !n.known()) {
                 continue;
             }
-            const std::uint32_t x = n.x & ~(s - 1), y = n.y & ~(s - 1);
-            const float fx = float(n.x - x) / float(s), fy = float(n.y - y) / float(s);
-            const Rgb d = (difference(n.sheet, x, y) * (1.0F - fx) + difference(n.sheet, x + s, y) * fx) * (1.0F - fy) +
-                          (difference(n.sheet, x, y + s) * (1.0F - fx) + difference(n.sheet, x + s, y + s) * fx) * fy;
-            if (d != Rgb(0.0F)) {
-                n.irradiance = glm::max(n.irradiance + d, Rgb(0.0F));
-                stale_[i] = part_.soft ? 0 : 1; // steps of soft light add up to what the coarse nodes came to
+            // The smallest cell of the coarse levels around it that was ever there.
+            for (unsigned level = probe_level_;; --level) {
+                const std::uint32_t s = cells_.steps(level);
+                const LightCell cell{n.sheet, n.x & ~(s - 1), n.y & ~(s - 1), level};
+                const auto corner = cells_.corners(cell);
+                if (level > cells_.first_level() &&
+                    std::find(corner.begin(), corner.end(), LightCells::kNone) != corner.end()) {
+                    continue;
+                }
+                const float fx = float(n.x - cell.x) / float(s), fy = float(n.y - cell.y) / float(s);
+                const Rgb d = (difference(corner[0]) * (1.0F - fx) + difference(corner[1]) * fx) * (1.0F - fy) +
+                              (difference(corner[2]) * (1.0F - fx) + difference(corner[3]) * fx) * fy;
+                if (d != Rgb(0.0F)) {
+                    n.irradiance = glm::max(n.irradiance + d, Rgb(0.0F));
+                    stale_[i] = part_.soft ? 0 : 1; // steps of soft light add up to what the coarse nodes came to
+                }
+                break;
             }
         }
     });
@@ -246,8 +255,75 @@ std::vector<LightCell> LightPart::cells_around(const std::vector<std::uint32_t>&
     return out;
 }
 
+// Whole tiles and their halves are too coarse for light beside what comes to stand there: their nodes take what was
+// interpolated, and are then looked at like all others.
+void LightPart::divide_around(const LightChange& change) {
+    const auto close_to = [&](const LightCell& c) {
+        const float half = 0.5F * float(cells_.steps(c.level));
+        const auto middle = place_of(c.sheet, vec2(float(c.x), float(c.y)) + half);
+        const float close = 1.5F * edge_metres(c);
+        return middle && std::any_of(change.boxes.begin(), change.boxes.end(), [&](const Box3& box) {
+                   const vec3 off = glm::max(glm::max(box.min - *middle, *middle - box.max), vec3(0.0F));
+                   return glm::length(off) < close;
+               });
+    };
+    std::vector<LightCell> leaves;
+    for (std::uint32_t sheet = 0; sheet < sheets_.sheets().size(); ++sheet) {
+        const LightSheet& of = sheets_.sheets()[sheet];
+        for (std::uint32_t tile = 0; tile < of.used.size() && of.chart->planar; ++tile) {
+            const std::uint32_t u = tile % of.chart->tiles_u, v = tile / of.chart->tiles_u;
+            const LightCell whole{sheet, u << cells_.max_level(), v << cells_.max_level(), 0};
+            if (of.used[tile] == 0 || !close_to(whole)) {
+                continue;
+            }
+            cells_.leaves(sheet, u, v, leaves);
+            for (std::size_t i = 0; i < leaves.size(); ++i) {
+                if (leaves[i].level < probe_level_ && close_to(leaves[i])) {
+                    const auto quarters = divide_smoothly(leaves[i]);
+                    leaves.insert(leaves.end(), quarters.begin(), quarters.end());
+                }
+            }
+        }
+    }
+    asked_ = sampled_ = cells_.nodes.size();
+}
+
+// Divides a cell; its new nodes have what its known corners showed where they are.
+std::array<LightCell, 4> LightPart::divide_smoothly(const LightCell& cell) {
+    const auto corner = cells_.corners(cell);
+    std::array<LightNode, 4> at;
+    for (std::size_t k = 0; k < 4; ++k) {
+        at[k] = cells_.nodes[corner[k]];
+    }
+    const std::size_t first_new = cells_.nodes.size();
+    const auto quarters = cells_.split(cell);
+    const auto edge = float(cells_.steps(cell.level));
+    for (std::size_t i = first_new; i < cells_.nodes.size(); ++i) {
+        LightNode& n = cells_.nodes[i];
+        const float fx = float(n.x - cell.x) / edge, fy = float(n.y - cell.y) / edge;
+        const std::array<float, 4> w{(1.0F - fx) * (1.0F - fy), fx * (1.0F - fy), (1.0F - fx) * fy, fx * fy};
+        float known = 0.0F;
+        n.state = at[0].state;
+        for (std::size_t k = 0; k < 4; ++k) {
+            if (at[k].known() && w[k] > 0.0F) {
+                n.irradiance += w[k] * at[k].irradiance;
+                n.variance += w[k] * at[k].variance;
+                n.state = State::Known;
+                known += w[k];
+            }
+        }
+        n.irradiance /= std::max(known, 1e-6F);
+        n.variance /= std::max(known, 1e-6F);
+    }
+    return quarters;
+}
+
 bool LightPart::repair(const LightChange& change, const RunContext& context, std::vector<std::uint8_t>& changed_sheets) {
     context_ = &context;
+    repairing_ = true;
+    if (part_.soft && cells_.first_level() < probe_level_) {
+        divide_around(change);
+    }
     const std::vector<std::uint32_t> asked = ask_again(change);
     std::vector<LightNode> before;
     before.reserve(asked.size());

@@ -72,6 +72,11 @@ std::optional<LightSheets::Place> LightSheets::locate(std::uint32_t index, const
                  sheet.back ? -sheet.chart->normal : sheet.chart->normal};
 }
 
+float LightSheets::distance(std::uint32_t sheet, const vec2& at, float reach) const {
+    const ChartPoint on = lookups_[sheets_[sheet].lookup].nearest(at, reach);
+    return on ? on.distance : std::numeric_limits<float>::infinity();
+}
+
 LightSheets::Place LightSheets::round_place(const LightSheet& sheet, const ChartPoint& on) const {
     const auto corner = rays_.triangle(sheet.surface, on.triangle);
     const vec3 w(1.0F - on.barycentric.x - on.barycentric.y, on.barycentric.x, on.barycentric.y);

@@ -39,6 +39,9 @@ public:
     /// Where light is to be sampled for a position in a chart (metres from the corner of its rectangle): at the nearest
     /// point of its triangles, a little inside their border; none when that is more than `reach` metres away.
     [[nodiscard]] std::optional<Place> locate(std::uint32_t sheet, const vec2& at, float reach) const;
+    /// Metres along the chart from a position to the nearest of its triangles; infinite where that is much farther than
+    /// `reach`.
+    [[nodiscard]] float distance(std::uint32_t sheet, const vec2& at, float reach) const;
 
 private:
     [[nodiscard]] Place round_place(const LightSheet& sheet, const ChartPoint& on) const;

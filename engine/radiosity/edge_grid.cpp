@@ -93,26 +93,28 @@ void EdgeGrid::find_edges() {
         c.edge = 0;
     }
     const auto compare = [](Cell& a, Cell& b) {
+        const vec3 d = a.seen - b.seen;
+        const bool differs = std::abs(d.x) > kDiffers || std::abs(d.y) > kDiffers || std::abs(d.z) > kDiffers;
         // What lies below the horizon has no say.
-        const vec3 d = glm::abs(a.seen - b.seen);
-        if (a.weight > 0.0F && b.weight > 0.0F && max_component(d) > kDiffers) {
+        if (differs && a.weight > 0.0F && b.weight > 0.0F) {
             a.edge = b.edge = 1;
         }
     };
     for (std::size_t r = 0; r < nr; ++r) {
-        for (std::size_t c = 0; c < nc; ++c) {
-            Cell& cell = cells_[r * nc + c];
-            if (c + 1 < nc || round_) {
-                compare(cell, cells_[r * nc + (c + 1) % nc]);
-            }
-            if (r + 1 < nr) {
-                compare(cell, cells_[(r + 1) * nc + c]);
-            }
+        Cell* row = &cells_[r * nc];
+        for (std::size_t c = 0; c + 1 < nc; ++c) {
+            compare(row[c], row[c + 1]);
+        }
+        if (round_) {
+            compare(row[nc - 1], row[0]);
+        }
+        for (std::size_t c = 0; r + 1 < nr && c < nc; ++c) {
+            compare(row[c], row[nc + c]);
         }
     }
     for (const Cell& c : cells_) {
         weight_sum_ += c.weight;
-        most_ = c.weight > 0.0F ? std::max(most_, max_component(c.seen)) : most_;
+        most_ = c.weight > 0.0F ? std::max({most_, c.seen.x, c.seen.y, c.seen.z}) : most_;
         for (int k = 0; k < 3; ++k) {
             seen_sum_[k] += double(c.seen[k]) * c.weight;
         }

@@ -39,6 +39,21 @@ double form_factor(const SurfacePoint& p, std::span<const vec3> corners, const M
     return count > 0 ? form_factor_to_polygon(p.position, p.normal, std::span(seen).first(count)) : 0.0;
 }
 
+// Form factor of a face that is small beside its distance and wholly above the horizon, by its middle: off by less than
+// the square of its angle over ten. Negative where it is none such.
+float far_factor(const SurfacePoint& p, const std::array<vec3, 3>& corner, const Face& face) {
+    constexpr float kSmall = 0.01F; // squared longest edge over squared distance
+    const vec3 d = (corner[0] + corner[1] + corner[2]) * (1.0F / 3.0F) - p.position;
+    const auto length2 = [](const vec3& v) { return glm::dot(v, v); };
+    const float edge2 =
+        std::max({length2(corner[1] - corner[0]), length2(corner[2] - corner[0]), length2(corner[2] - corner[1])});
+    const float d2 = length2(d), height = glm::dot(d, p.normal);
+    if (edge2 > kSmall * d2 || (height < 0.0F ? -1.0F : height * height) < edge2) {
+        return -1.0F;
+    }
+    return std::max(-height * glm::dot(d, face.normal), 0.0F) * face.area / (kPi * d2 * d2);
+}
+
 // Faces one by one; of many, evenly chosen ones stand for all.
 Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e, const SurfacePoint& p,
                      const MirrorSight* over) {
@@ -50,14 +65,15 @@ Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e,
         const auto corner = rays.triangle(face.surface, face.triangle);
         chosen += face.area;
         if (faces_point(corner[0], face.normal, p)) {
-            factor += float(form_factor(p, corner, over));
+            const float far = over == nullptr ? far_factor(p, corner, face) : -1.0F;
+            factor += far >= 0.0F ? far : float(form_factor(p, corner, over));
         }
     }
     return e.radiosity * std::min(factor * (e.area / chosen), 1.0F);
 }
 
 // What can be seen of patches and faces over a mirror is cut out exactly; clusters count as if all of them could be seen.
-CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, const SurfacePoint& p,
+CutNode evaluate(const Hierarchy& h, const RayScene& rays, const FarFaces* far, std::uint32_t index, const SurfacePoint& p,
                  const MirrorSight* over) {
     const Element& e = h.elements[index];
     CutNode out;
@@ -85,6 +101,11 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, std::uint32_t index, 
     }
     const float r = glm::length(d);
     if (e.kind == Kind::Faces) {
+        const float factor = far != nullptr && over == nullptr ? far->factor(h, index, p) : -1.0F;
+        if (factor >= 0.0F) {
+            out.contribution = e.radiosity * factor;
+            return out;
+        }
         if (r < 4.0F * e.radius || over != nullptr) {
             out.contribution = faces_one_by_one(h, rays, e, p, over);
             return out;
@@ -239,7 +260,7 @@ void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& sett
     const auto smaller_error = [](const CutNode& a, const CutNode& b) {
         return a.error < b.error || (a.error == b.error && a.element > b.element);
     };
-    std::vector<CutNode> cut{evaluate(h_, rays_, 0, p, over)};
+    std::vector<CutNode> cut{evaluate(h_, rays_, far_, 0, p, over)};
     std::vector<CutNode> done; // nothing below them would change the result
     float total = luminance(cut[0].contribution + out.irradiance);
     while (!cut.empty() && cut.size() + done.size() < settings.max_cut) {
@@ -258,7 +279,7 @@ void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& sett
             continue;
         }
         for (std::uint32_t k = 0; k < e.child_count; ++k) {
-            const CutNode child = evaluate(h_, rays_, e.first_child + k, p, over);
+            const CutNode child = evaluate(h_, rays_, far_, e.first_child + k, p, over);
             const float light = luminance(child.contribution);
             total += light;
             if (child.error > 0.0F) {

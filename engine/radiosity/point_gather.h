@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/radiosity/direct_light.h"
+#include "engine/radiosity/far_faces.h"
 #include "engine/radiosity/hierarchy.h"
 
 namespace atrium {
@@ -18,9 +19,10 @@ struct GatherSettings {
 /// Safe from any thread while the hierarchy does not change.
 class PointGather {
 public:
-    /// Without `direct` it gathers from the tree alone.
-    PointGather(const Hierarchy& hierarchy, const RayScene& rays, const DirectLight* direct = nullptr)
-        : h_(hierarchy), rays_(rays), direct_(direct) {}
+    /// Without `direct` it gathers from the tree alone, without `far` from every face of a group, however far away.
+    PointGather(const Hierarchy& hierarchy, const RayScene& rays, const DirectLight* direct = nullptr,
+                const FarFaces* far = nullptr)
+        : h_(hierarchy), rays_(rays), direct_(direct), far_(far) {}
 
     /// Irradiance on a small plane at `point` (engine coordinates) with unit `normal`, surfaces, sun, sky and lamps
     /// together.
@@ -43,6 +45,7 @@ private:
     const Hierarchy& h_;
     const RayScene& rays_;
     const DirectLight* direct_;
+    const FarFaces* far_;
 };
 
 } // namespace atrium

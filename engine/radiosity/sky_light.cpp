@@ -9,6 +9,8 @@ namespace {
 
 constexpr float kMostlyFree = 0.93F; // of what is seen through the clearest place of a window
 
+bool sees(const SkyRay& ray) { return ray.through.x > 0.0F || ray.through.y > 0.0F || ray.through.z > 0.0F; }
+
 // Looks closer until the light is certain enough or the rays are spent.
 template <class Look>
 void look_closer(EdgeGrid& grid, std::size_t spent, float light, float enough, std::size_t rays, const Look& look) {
@@ -171,7 +173,7 @@ void SkyLight::look_through(std::size_t window, const WindowPoints& points, cons
             continue;
         }
         // What crosses a pane is the first pane's; what crosses none but an opening is the first opening's.
-        bool own = max_component(rays[k].through) > 0.0F;
+        bool own = sees(rays[k]);
         if (own && windows_[window].opening) {
             const std::size_t owner = first_opening(from, directions[k]); // none: on its very rim
             own = !std::isfinite(rays[k].first_pane) && (owner == window || owner == kNone);
@@ -205,7 +207,7 @@ void SkyLight::look_elsewhere(const vec3& point, const vec3& normal, EdgeGrid& g
     seen.assign(directions.size(), Rgb(0.0F));
     for (std::size_t i = 0; i < rays.size(); ++i) {
         // What a window lets through is counted with the window.
-        const bool free = max_component(rays[i].through) > 0.0F && !std::isfinite(rays[i].first_pane);
+        const bool free = sees(rays[i]) && !std::isfinite(rays[i].first_pane);
         seen[i] = free && first_opening(point, directions[i]) == kNone ? rays[i].through : Rgb(0.0F);
     }
     grid.set(seen, weights);

@@ -322,4 +322,52 @@ unsigned EmbreeTriangles::blocked_of_8(const vec3& from, std::span<const vec3> d
     return out;
 }
 
+void EmbreeTriangles::nearest_filters_of_8(const vec3& from, std::span<const vec3> directions, std::span<const float> tnear,
+                                           unsigned wanted, std::span<TriangleHit> hits) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    alignas(32) int valid[8];
+    RTCRayHit8 rays;
+    for (std::size_t k = 0; k < 8; ++k) {
+        const bool asked = k < directions.size() && (wanted >> k & 1U) != 0;
+        valid[k] = asked ? -1 : 0;
+        const std::size_t from_k = std::min(k, directions.size() - 1);
+        const vec3& d = directions[from_k];
+        rays.ray.org_x[k] = from.x;
+        rays.ray.org_y[k] = from.y;
+        rays.ray.org_z[k] = from.z;
+        rays.ray.dir_x[k] = d.x;
+        rays.ray.dir_y[k] = d.y;
+        rays.ray.dir_z[k] = d.z;
+        rays.ray.tnear[k] = tnear[from_k];
+        rays.ray.tfar[k] = std::numeric_limits<float>::infinity();
+        rays.ray.time[k] = 0.0F;
+        rays.ray.mask[k] = kFilter;
+        rays.ray.id[k] = 0;
+        rays.ray.flags[k] = 0;
+        rays.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+        rays.hit.instID[0][k] = RTC_INVALID_GEOMETRY_ID;
+    }
+    rtcIntersect8(valid, still_filters_, &context, &rays);
+    for (std::size_t k = 0; k < directions.size(); ++k) {
+        if (valid[k] == 0) {
+            continue;
+        }
+        RTCRayHit one;
+        fill(one.ray, from, directions[k], tnear[k], rays.ray.tfar[k], kFilter);
+        one.hit.geomID = rays.hit.geomID[k];
+        one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        one.hit.primID = rays.hit.primID[k];
+        one.hit.u = rays.hit.u[k];
+        one.hit.v = rays.hit.v[k];
+        if (moved_ != nullptr) {
+            take_nearer_of_moved(one);
+        }
+        hits[k] = one.hit.geomID == RTC_INVALID_GEOMETRY_ID
+                      ? TriangleHit{}
+                      : TriangleHit{one.hit.geomID, one.hit.primID, one.ray.tfar, {one.hit.u, one.hit.v}};
+    }
+}
+
 } // namespace atrium

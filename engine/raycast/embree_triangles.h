@@ -78,6 +78,11 @@ public:
     /// Bit k is set where direction k (of at most 8) meets something opaque.
     [[nodiscard]] unsigned blocked_of_8(const vec3& from, std::span<const vec3> directions, float tnear) const;
 
+    /// nearest() among what filters light for the directions (at most 8) whose bit is set in `wanted`, each from its own
+    /// tnear[k] on; the others' hits are left alone.
+    void nearest_filters_of_8(const vec3& from, std::span<const vec3> directions, std::span<const float> tnear,
+                              unsigned wanted, std::span<TriangleHit> hits) const;
+
     [[nodiscard]] std::size_t bytes() const { return bytes_; } ///< as Embree reports them
 
 private:

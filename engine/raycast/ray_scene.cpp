@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <map>
 #include <thread>
 
@@ -458,7 +459,10 @@ struct RayScene::Impl {
 
     Hit hit(bool only_filters, const vec3& from, const vec3& direction, float tnear, float tfar) {
         count_ray();
-        const TriangleHit met = embree.nearest(only_filters, from, direction, tnear, tfar);
+        return as_hit(embree.nearest(only_filters, from, direction, tnear, tfar), direction);
+    }
+
+    [[nodiscard]] Hit as_hit(const TriangleHit& met, const vec3& direction) const {
         Hit out;
         if (met.surface == Hit::kNone) {
             return out;
@@ -517,6 +521,45 @@ struct RayScene::Impl {
             tnear = h.t + std::max(1e-5F, 1e-6F * h.t);
         }
         return any_filter ? SkyRay{} : out;
+    }
+
+    // The same for the directions (at most 8) whose bit is not set in `blocked`; the others see nothing.
+    void cross_filters_of_8(const RayScene& self, const vec3& from, std::span<const vec3> directions, unsigned blocked,
+                            float tnear, std::span<SkyRay> out) {
+        unsigned going = ~blocked & ((1U << directions.size()) - 1U);
+        std::array<float, 8> start;
+        std::array<TriangleHit, 8> hits;
+        start.fill(tnear);
+        for (std::size_t k = 0; k < directions.size(); ++k) {
+            out[k] = (going >> k & 1U) != 0 ? SkyRay{Rgb(1.0F)} : SkyRay{};
+        }
+        for (int crossing = 0; any_filter && going != 0 && crossing < kMaxCrossings; ++crossing) {
+            count_rays(std::size_t(std::popcount(going)));
+            embree.nearest_filters_of_8(from, directions, start, going, hits);
+            for (std::size_t k = 0; k < directions.size(); ++k) {
+                const unsigned bit = 1U << k;
+                if ((going & bit) == 0) {
+                    continue;
+                }
+                const Hit h = as_hit(hits[k], directions[k]);
+                if (!h) {
+                    going &= ~bit;
+                    continue;
+                }
+                if (surfaces[h.surface].pane) {
+                    out[k].first_pane = std::min(out[k].first_pane, h.t);
+                }
+                out[k].through *= filter(self, h, directions[k]);
+                if (max_component(out[k].through) <= 1e-4F) {
+                    out[k] = {};
+                    going &= ~bit;
+                }
+                start[k] = h.t + std::max(1e-5F, 1e-6F * h.t);
+            }
+        }
+        for (std::size_t k = 0; any_filter && k < directions.size(); ++k) {
+            out[k] = (going >> k & 1U) != 0 ? SkyRay{} : out[k];
+        }
     }
 
     template <class V>
@@ -603,11 +646,7 @@ void RayScene::look_at_sky(const vec3& from, std::span<const vec3> directions, s
         const auto some = directions.subspan(first, std::min<std::size_t>(8, directions.size() - first));
         impl_->count_rays(some.size());
         const unsigned blocked = impl_->embree.blocked_of_8(from, some, tnear);
-        for (std::size_t k = 0; k < some.size(); ++k) {
-            out[first + k] = (blocked >> k & 1U) != 0
-                                 ? SkyRay{}
-                                 : impl_->cross_filters(*this, from, some[k], tnear, std::numeric_limits<float>::infinity());
-        }
+        impl_->cross_filters_of_8(*this, from, some, blocked, tnear, out.subspan(first, some.size()));
     }
 }
 

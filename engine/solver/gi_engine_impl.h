@@ -34,6 +34,7 @@ struct GiEngine::Impl {
     Hierarchy hierarchy;
     Hierarchy emitters;                   ///< the tree in which only named emitters shine; empty when there are none
     std::unique_ptr<MirrorLight> mirrors; ///< null where there is no flat mirror, and where the paper's ways are asked for
+    std::unique_ptr<FarFaces> far_lamps;  ///< of `emitters`
     std::unique_ptr<PointGather> lamps;   ///< named emitters alone
     std::unique_ptr<PointGather> direct;  ///< named emitters and `punctual` together
     std::unique_ptr<IndirectGather> reflected;
@@ -191,8 +192,9 @@ struct GiEngine::Impl {
                 }
             }
         }
-        direct = std::make_unique<PointGather>(emitters, *rays, punctual.get());
-        lamps = std::make_unique<PointGather>(emitters, *rays);
+        far_lamps = std::make_unique<FarFaces>(emitters, *rays);
+        direct = std::make_unique<PointGather>(emitters, *rays, punctual.get(), far_lamps.get());
+        lamps = std::make_unique<PointGather>(emitters, *rays, nullptr, far_lamps.get());
     }
 
     // Direct light on every leaf; leaves whose samples disagree are split first, so that sun patches find their place.

@@ -198,7 +198,7 @@ TEST(DirectMaps, PartsAddUpAndAreLookedForApart) {
     const DirectMaps maps = build_direct_maps(
         *stage.rays, stage.charts, parts, [](std::uint32_t) { return false; }, stage.settings, stage.context, 0.0, 1.0);
     ASSERT_TRUE(maps.complete && maps.front[0]);
-    EXPECT_EQ(calls[1], 33U * 33U) << "the first nodes, and no probes";
+    EXPECT_EQ(calls[1], 9U * 9U + 8U * 8U) << "corners of tiles, and a probe in each";
     EXPECT_EQ(maps.evaluations, calls[0] + calls[1]);
     for (double x = -1.27; x < 1.28; x += 0.0313) {
         for (double z = -1.27; z < 1.28; z += 0.0297) {
@@ -319,6 +319,40 @@ TEST(DirectMaps, NoHaloRunsOutFromUnderABox) {
             }
         }
     }
+}
+
+// Light of large sources has its finest detail beside things: there it is sampled as densely as all other light, elsewhere
+// at the corners of tiles. A dark patch between these is found beside a box, and would not be found without it.
+TEST(DirectMaps, SoftLightIsLookedAtCloselyBesideThings) {
+    const auto dark_in = [](float x, float z) {
+        return glm::length(vec2(x, z) - vec2(0.48F, -0.16F)) < 0.1F ? 0.0F : kFull;
+    };
+    std::array<std::size_t, 2> samples{};
+    for (const bool box : {false, true}) {
+        Stage stage(2.56F, 2.56F);
+        if (box) {
+            add_box(stage.scene, {0.1F, 0.3F, 0.1F}, {0.48, 0.151, -0.16}); // just off the floor
+        }
+        stage.ready();
+        stage.charts.resize(1);
+        stage.charts.resize(stage.rays->surfaces().size());
+        const auto o = vec3(stage.rays->origin());
+        const DirectPart part{[&](const vec3& p, const vec3&) {
+                                  return DirectSample{Rgb(dark_in(p.x + o.x, p.z + o.z)), 0.0F};
+                              },
+                              true,
+                              false,
+                              {}};
+        const DirectMaps maps = build_direct_maps(
+            *stage.rays, stage.charts, std::span(&part, 1), [](std::uint32_t) { return false; }, stage.settings,
+            stage.context, 0.0, 1.0);
+        ASSERT_TRUE(maps.complete && maps.front[0]);
+        samples[box ? 1 : 0] = maps.evaluations;
+        EXPECT_NEAR(stage.at(maps, 0.48, -0.10), box ? 0.0 : kFull, 0.3 * kFull);
+        EXPECT_NEAR(stage.at(maps, -0.9, 0.3), kFull, 1e-3);
+    }
+    EXPECT_LT(samples[0], 300U);
+    EXPECT_LT(samples[1], 33U * 33U) << "the rest of the floor stays coarse";
 }
 
 TEST(DirectMaps, BackSidesHaveMapsOfTheirOwn) {
