@@ -49,11 +49,12 @@ public:
     solve(const Scene& scene, const SolveOptions& options, const RunContext& context,
           const std::function<void(std::shared_ptr<const Solution>)>& on_snapshot = {});
 
-    /// Light after objects moved, in a hurry: direct light and caustics are looked at again where the change reaches,
-    /// starting from the last complete solution (of a solve with keep_for_updates) and the updates since; reflected light
-    /// stays as it is but for what moved. Marked in Solution::statistics.update. An error where more than placements
-    /// changed, lamps or windows moved, or there is no complete solution: then only solve() helps. Stopped by the context:
-    /// an error too; what was left undone is remembered and done by the next update.
+    /// Light after objects moved, lamps or the sky changed their brightness, or matt surfaces their colour, in a hurry,
+    /// starting from the last complete solution (of a solve with keep_for_updates) and the updates since: direct light and
+    /// caustics are looked at again where a move reaches, and weighted anew without rays where brightness changed; reflected
+    /// light is solved again between leaves that see each other as they did. Marked in Solution::statistics.update. An error
+    /// where more than that changed, lamps or windows moved, or there is no complete solution: then only solve() helps.
+    /// Stopped by the context: an error too; what was left undone is remembered and done by the next update.
     Result<std::shared_ptr<const Solution>> update(const Scene& scene, const SolveOptions& options,
                                                    const RunContext& context);
     /// A complete solution is there for update() to start from.
@@ -65,6 +66,7 @@ public:
 
 private:
     struct Impl;
+    struct Relight;
     static void reflect_change(Impl& impl, const RunContext& context);
     static void show_direct_light(Impl& impl, const RunContext& context);
     std::unique_ptr<Impl> impl_;

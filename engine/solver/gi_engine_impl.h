@@ -19,6 +19,7 @@
 #include "engine/solver/gi_engine.h"
 #include "engine/solver/quality.h"
 #include "engine/solver/reflected_change.h"
+#include "engine/solver/relight.h"
 
 #include <algorithm>
 
@@ -53,6 +54,11 @@ struct GiEngine::Impl {
         std::unique_ptr<ReflectedChange> reflected; ///< null until something moves
         std::vector<bool> away;                     ///< per surface: moved since the complete solution
         LightChange owed;                           ///< what a stopped update left undone
+        bool relight_owed = false;                  ///< likewise, of lamps and colours
+        std::vector<std::uint8_t> new_caustics;     ///< per surface: its textures do not show its landings' power; or empty
+        std::shared_ptr<Relight> relight;           ///< null until lamps or colours change, and once something moves
+        std::vector<float> sky_over_mirrors;        ///< LeafSurroundings::sky; empty where no mirror or lens shows any
+        double mean_radiance = 0.0;                 ///< as shown
         std::vector<std::uint8_t> new_maps;         ///< per surface: its layer does not show its light maps yet
     };
     std::unique_ptr<Live> live;
@@ -242,6 +248,12 @@ struct GiEngine::Impl {
 
     // Direct light of a leaf from the light map of its chart; false where it has none.
     bool light_from_map(Element& e, double& spread) const {
+        return mean_of_maps(e, maps.front, maps.back, e.direct, spread);
+    }
+
+    // The mean over a leaf of what maps in the place of `maps` hold.
+    bool mean_of_maps(const Element& e, const std::vector<std::shared_ptr<const LightMap>>& fronts,
+                      const std::vector<std::shared_ptr<const LightMap>>& backs, Rgb& out, double& spread) const {
         if (e.kind != Element::Kind::Patch || charts[e.surface].empty()) {
             return false;
         }
@@ -252,7 +264,7 @@ struct GiEngine::Impl {
             return false;
         }
         const Chart& chart = surface.charts[index];
-        const auto& map = e.back ? maps.back[e.surface] : maps.front[e.surface];
+        const auto& map = e.back ? backs[e.surface] : fronts[e.surface];
         constexpr int kSamples = 32;
         Rgb sum(0.0F);
         double sum2 = 0.0;
@@ -265,8 +277,8 @@ struct GiEngine::Impl {
             sum += light;
             sum2 += double(luminance(light)) * luminance(light);
         }
-        e.direct = sum / float(kSamples);
-        const double mean = luminance(e.direct);
+        out = sum / float(kSamples);
+        const double mean = luminance(out);
         spread = std::sqrt(std::max(sum2 / kSamples - mean * mean, 0.0));
         return true;
     }

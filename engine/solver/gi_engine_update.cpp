@@ -58,12 +58,6 @@ void follow(std::vector<SurfacePoint>& places, const dmat4& motion) {
     }
 }
 
-bool same_lamps(const std::vector<PlacedLight>& a, const std::vector<PlacedLight>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const PlacedLight& x, const PlacedLight& y) {
-        return x.light == y.light && x.node == y.node && x.position == y.position && x.axis == y.axis;
-    });
-}
-
 // Fewer rays as long as it lives: what moves is looked at for the blink of an eye.
 class InAHurry {
 public:
@@ -201,7 +195,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
     const auto seconds_since_start = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-    const auto give_up = [&](const char* why) {
+    const auto give_up = [&](const std::string& why) {
         impl_->live.reset(); // half of it may have followed already
         return fail("", "", why, "A whole new solution answers");
     };
@@ -214,16 +208,22 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     }
     Impl::Live& live = *s.live;
     const std::uint64_t rays_before = s.rays->rays_traced();
-    if (!same_lamps(placed_lights(scene, s.rays->origin()), s.punctual->lights()) ||
-        scene.environment.sky_radiance != s.sky_radiance) {
-        return give_up("lamps changed");
-    }
     context.progress("ray_scene", 0.0);
+    const auto relit = Relight::follow(s, scene, context);
+    if (!relit) {
+        return context.should_stop() ? fail("", "", relit.error().what, "The next update goes on")
+                                     : give_up(relit.error().what);
+    }
     const auto moved = s.rays->move_to(scene);
     if (!moved) {
-        return give_up("more than places changed");
+        return give_up("more than places and colours changed");
     }
     LightChange& change = live.owed;
+    const bool moves = !moved->empty() || !change.boxes.empty();
+    if (moves && live.relight) {
+        live.relight->settle(s);
+        live.relight.reset();
+    }
     change.moved.resize(s.rays->surfaces().size(), 0);
     const std::vector<Box3> boxes = boxes_of(*moved);
     change.boxes.insert(change.boxes.end(), boxes.begin(), boxes.end());
@@ -262,6 +262,8 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     UpdateStatistics& report = solution->statistics.update;
     report = {};
     report.degraded = true;
+    report.sources_changed = relit->sources;
+    report.materials_changed = relit->materials;
 
     context.progress("direct", 0.1);
     const InAHurry fewer_rays(s.field.direct);
@@ -269,7 +271,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     live.away.resize(s.rays->surfaces().size(), false);
     RepairReport repaired;
     repaired.complete = true;
-    if (live.maps) {
+    if (live.maps && moves) {
         repaired = live.maps->repair(change, s.maps, context);
     }
     for (const std::uint32_t surface : repaired.surfaces) {
@@ -280,10 +282,17 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     }
     if (live.exchange) {
         context.progress("gather", 0.5);
-        reflect_change(s, context);
+        if (live.relight && relit->any) {
+            live.relight->reflect(s, context);
+        } else if (!live.relight) {
+            reflect_change(s, context);
+        }
     }
     ParticleUpdate particles;
-    if (s.particles) {
+    if (s.particles && !live.new_caustics.empty()) {
+        Relight::show_caustics(s);
+    }
+    if (s.particles && moves) {
         context.progress("particles", 0.6);
         std::vector<std::uint32_t> moved_surfaces;
         for (std::uint32_t i = 0; i < change.moved.size(); ++i) {
@@ -318,10 +327,12 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     if (live.reflected) {
         live.reflected->add_to(s.hierarchy, live.layers.surfaces);
     }
-    if (s.particles) {
+    if (s.particles && (moves || !live.new_caustics.empty())) {
         attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics);
     }
     change = {};
+    live.relight_owed = false;
+    live.new_caustics.clear();
     live.new_maps.clear();
     s.mirrors_before.reset();
     s.mirror_shafts_before = {};
@@ -329,6 +340,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     solution->final = false;
     solution->surfaces = live.layers.surfaces;
     solution->caustic_records = s.caustics.records;
+    solution->mean_radiance = live.relight ? live.relight->mean_radiance * live.relight->brightening(s) : live.mean_radiance;
     solution->statistics.converged = false;
     solution->statistics.rays = s.rays->rays_traced() - rays_before;
     solution->statistics.time.solve = seconds_since_start();

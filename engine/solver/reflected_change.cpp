@@ -5,6 +5,17 @@
 #include <algorithm>
 
 namespace atrium {
+namespace {
+
+// What is gathered at a vertex is more exact than leaves are: it follows their ratio. Where they were all but dark a ratio
+// says nothing, and the difference is added. `dark`: lux.
+Rgb followed(const Rgb& vertex, const Rgb& before, const Rgb& now, float dark) {
+    const Rgb known = before / (before + Rgb(std::max(dark, 1e-30F)));
+    const Rgb ratio = now / glm::max(before, Rgb(1e-30F));
+    return glm::max(known * (vertex * ratio) + (Rgb(1.0F) - known) * (vertex + now - before), Rgb(0.0F));
+}
+
+} // namespace
 
 ReflectedChange::ReflectedChange(const Hierarchy& h, const RayScene& rays, const LayerSet& layers) {
     constexpr float kClear = 1e-3F;        // metres: rays down to the leaf start this far above the surface
@@ -53,7 +64,7 @@ ReflectedChange::ReflectedChange(const Hierarchy& h, const RayScene& rays, const
     }
 }
 
-// Mean change of the triangles around each vertex, by area. False where it is only a trace.
+// By the mean change of the triangles around each vertex, by area. False where it is only a trace.
 bool ReflectedChange::changed(const Hierarchy& h, const std::vector<Rgb>& before, const DisplayMesh& mesh, const Side& side,
                               float trace, std::vector<Rgb>& out) {
     bool any = false;
@@ -63,25 +74,25 @@ bool ReflectedChange::changed(const Hierarchy& h, const std::vector<Rgb>& before
     if (!any) {
         return false;
     }
-    std::vector<Rgb> sum(side.base.size(), Rgb(0.0F));
+    std::vector<Rgb> sum_before(side.base.size(), Rgb(0.0F)), sum_now(side.base.size(), Rgb(0.0F));
     std::vector<float> area(side.base.size(), 0.0F);
     for (std::size_t t = 0; t < side.leaf.size(); ++t) {
         if (side.leaf[t] == Element::kNone) {
             continue;
         }
-        const Rgb change = h.elements[side.leaf[t]].irradiance - before[side.leaf[t]];
         const std::uint32_t* v = &mesh.indices[3 * t];
         const float own = glm::length(
             glm::cross(mesh.positions[v[1]] - mesh.positions[v[0]], mesh.positions[v[2]] - mesh.positions[v[0]]));
         for (int k = 0; k < 3; ++k) {
-            sum[v[k]] += change * own;
+            sum_before[v[k]] += before[side.leaf[t]] * own;
+            sum_now[v[k]] += h.elements[side.leaf[t]].irradiance * own;
             area[v[k]] += own;
         }
     }
     out = side.base;
     for (std::size_t v = 0; v < out.size(); ++v) {
         if (area[v] > 0.0F) {
-            out[v] = glm::max(out[v] + sum[v] / area[v], Rgb(0.0F));
+            out[v] = followed(out[v], sum_before[v] / area[v], sum_now[v] / area[v], trace);
         }
     }
     return true;

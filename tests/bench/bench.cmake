@@ -34,3 +34,6 @@ target_compile_definitions(move_bench PRIVATE ATRIUM_SOURCE_DIR="${CMAKE_SOURCE_
 
 add_executable(drag_bench ${CMAKE_CURRENT_LIST_DIR}/drag_bench.cpp)
 target_link_libraries(drag_bench PRIVATE atrium_engine CLI11::CLI11)
+
+add_executable(relight_bench ${CMAKE_CURRENT_LIST_DIR}/relight_bench.cpp)
+target_link_libraries(relight_bench PRIVATE atrium_engine CLI11::CLI11)
