@@ -341,6 +341,9 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     solution->surfaces = live.layers.surfaces;
     solution->caustic_records = s.caustics.records;
     solution->mean_radiance = live.relight ? live.relight->mean_radiance * live.relight->brightening(s) : live.mean_radiance;
+    if (live.relight && live.exchange) {
+        s.energy_balance(*live.exchange, solution->statistics);
+    }
     solution->statistics.converged = false;
     solution->statistics.rays = s.rays->rays_traced() - rays_before;
     solution->statistics.time.solve = seconds_since_start();

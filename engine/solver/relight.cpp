@@ -215,12 +215,13 @@ Result<GiEngine::Relight::Change> GiEngine::Relight::follow(Impl& s, const Scene
         return refuse(why);
     }
     Change change;
+    for (std::size_t i = 0; i < self.sources.size(); ++i) {
+        change.sources += i >= before.size() || self.sources[i].now != before[i] ? 1 : 0;
+    }
+    live.relight_owed = live.relight_owed || change.sources > 0;
     Rgb factor;
     const bool alike = self.sources_alike(factor); // then nothing needs to be known of single ones
-    for (std::size_t i = 0; i < self.sources.size(); ++i) {
-        Source& source = self.sources[i];
-        const bool changed = i >= before.size() || source.now != before[i];
-        change.sources += changed ? 1 : 0;
+    for (Source& source : self.sources) {
         if (source.now != source.base && !source.known && !alike) {
             context.progress("direct", 0.1);
             if (!self.learn(s, source, context)) {

@@ -206,6 +206,9 @@ TEST(Relight, OneFactorForAllLightTracesNothing) {
     const auto updated = room.update();
     EXPECT_EQ(updated->statistics.rays, 0U);
     EXPECT_EQ(updated->statistics.update.sources_changed, 4U);
+    EXPECT_NEAR(updated->statistics.energy.emitted, 0.5 * before->statistics.energy.emitted,
+                1e-4 * before->statistics.energy.emitted);
+    EXPECT_NEAR(updated->mean_radiance, 0.5 * before->mean_radiance, 1e-4 * before->mean_radiance);
     const Light3 now = room.light(*updated);
     for (std::size_t i = 0; i < now.size(); ++i) {
         EXPECT_NEAR(now[i].g, 0.5F * old[i].g, 1e-5F * old[i].g);
@@ -283,14 +286,16 @@ TEST(Relight, AStoppedUpdateIsDoneByTheNext) {
     Room room, other;
     ASSERT_TRUE(room.solve());
     ASSERT_TRUE(other.solve());
-    for (Room* r : {&room, &other}) {
-        other_edits().back().apply(*r);
-    }
     RunContext stopped;
     stopped.stop.request_stop();
-    EXPECT_FALSE(room.engine.update(room.scene, room.options, stopped));
-    EXPECT_TRUE(room.engine.can_update());
-    expect_same(*room.update(), *other.update());
+    for (const auto& edit : {edits_of_lamps().front(), other_edits().back()}) {
+        for (Room* r : {&room, &other}) {
+            edit.apply(*r);
+        }
+        EXPECT_FALSE(room.engine.update(room.scene, room.options, stopped));
+        EXPECT_TRUE(room.engine.can_update());
+        expect_same(*room.update(), *other.update());
+    }
 }
 
 TEST(Relight, SaysWhatItCannotFollow) {
