@@ -111,6 +111,45 @@ struct LiveDirectMaps::Impl {
         return out;
     }
 
+    std::optional<SourceLight> light_of(std::span<const PartSource> source, const Rgb& brightness,
+                                        const RunContext& context) {
+        SourceLight out;
+        out.front.resize(charts_.size());
+        out.back.resize(charts_.size());
+        for (const PartSource& in : source) {
+            out.nodes.emplace_back(in.part, parts_[in.part].light_of(in.light, brightness, context));
+            if (context.should_stop()) {
+                return std::nullopt;
+            }
+        }
+        // Its light in the place of all light, for as long as the maps of it are put together.
+        std::vector<LightCells*> cells;
+        std::vector<std::vector<Rgb>> before;
+        for (const auto& [part, light] : out.nodes) {
+            std::vector<LightNode>& nodes = parts_[part].cells().nodes;
+            cells.push_back(&parts_[part].cells());
+            std::vector<Rgb>& kept = before.emplace_back(nodes.size());
+            for (std::size_t i = 0; i < nodes.size(); ++i) {
+                kept[i] = nodes[i].irradiance;
+                nodes[i].irradiance = light[i];
+            }
+        }
+        context_ = &context;
+        assemble([](std::uint32_t) { return true; }, cells, out.front, out.back);
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            for (std::size_t i = 0; i < before[k].size(); ++i) {
+                cells[k]->nodes[i].irradiance = before[k][i];
+            }
+        }
+        return context.should_stop() ? std::nullopt : std::optional(std::move(out));
+    }
+
+    void add_light(const SourceLight& source, const Rgb& change) {
+        for (const auto& [part, light] : source.nodes) {
+            parts_[part].add_light(light, change);
+        }
+    }
+
     [[nodiscard]] std::size_t memory_bytes() const {
         std::size_t bytes = 0;
         for (const LightPart& part : parts_) {
@@ -120,6 +159,7 @@ struct LiveDirectMaps::Impl {
     }
 
 private:
+    using Maps = std::vector<std::shared_ptr<const LightMap>>;
     DirectMaps finish(double to) {
         DirectMaps out;
         out.front.resize(charts_.size());
@@ -145,8 +185,17 @@ private:
         return out;
     }
 
-    // Maps of the surfaces that are wanted, from what the cells hold now.
     template <class Wanted> void assemble(const Wanted& wanted, DirectMaps& out) {
+        std::vector<LightCells*> cells;
+        for (LightPart& part : parts_) {
+            cells.push_back(&part.cells());
+        }
+        assemble(wanted, cells, out.front, out.back);
+    }
+
+    // Maps of the surfaces that are wanted, of the light that these parts' cells hold now.
+    template <class Wanted>
+    void assemble(const Wanted& wanted, const std::vector<LightCells*>& cells, Maps& front, Maps& back) {
         const auto& sheets = sheets_.sheets();
         std::vector<SheetPlace> places;
         for (const SheetPlace& p : places_) {
@@ -155,14 +204,16 @@ private:
             }
         }
         std::vector<std::uint8_t> lit(sheets.size(), 0);
-        std::vector<LightCells*> cells;
-        std::vector<std::vector<std::pair<std::uint32_t, LightNode>>> filled;
+        std::vector<LightCells*> all;
         for (LightPart& part : parts_) {
-            cells.push_back(&part.cells());
-            for (const LightNode& n : part.cells().nodes) {
+            all.push_back(&part.cells());
+        }
+        std::vector<std::vector<std::pair<std::uint32_t, LightNode>>> filled;
+        for (LightCells* part : cells) {
+            for (const LightNode& n : part->nodes) {
                 lit[n.sheet] |= max_component(n.irradiance) > 0.0F ? 1 : 0;
             }
-            filled.push_back(fill_unknown_nodes(part.cells(), places));
+            filled.push_back(fill_unknown_nodes(*part, places));
         }
         for (std::size_t begin = 0; begin < places.size();) {
             const std::uint32_t surface = sheets[places[begin].sheet].surface;
@@ -175,8 +226,8 @@ private:
                 any[k] = any[k] || lit[places[end].sheet] != 0;
             }
             for (std::size_t k = 0; k < 2; ++k) {
-                auto& map = (k == 0 ? out.front : out.back)[surface];
-                map = any[k] ? std::make_shared<LightMap>(assemble_light_map(cells, side[k], charts_[surface].width,
+                auto& map = (k == 0 ? front : back)[surface];
+                map = any[k] ? std::make_shared<LightMap>(assemble_light_map(cells, all, side[k], charts_[surface].width,
                                                                              charts_[surface].height, *context_))
                              : nullptr;
             }
@@ -220,7 +271,25 @@ DirectMaps LiveDirectMaps::build(double from, double to) { return impl_->build(f
 RepairReport LiveDirectMaps::repair(const LightChange& change, DirectMaps& maps, const RunContext& context) {
     return impl_->repair(change, maps, context);
 }
+std::optional<SourceLight> LiveDirectMaps::light_of(std::span<const PartSource> source, const Rgb& brightness,
+                                                    const RunContext& context) {
+    return impl_->light_of(source, brightness, context);
+}
+void LiveDirectMaps::add_light(const SourceLight& source, const Rgb& change) { impl_->add_light(source, change); }
 std::size_t LiveDirectMaps::memory_bytes() const { return impl_->memory_bytes(); }
+
+std::size_t SourceLight::memory_bytes() const {
+    std::size_t bytes = 0;
+    for (const auto& [part, light] : nodes) {
+        bytes += light.size() * sizeof(Rgb);
+    }
+    for (const auto* side : {&front, &back}) {
+        for (const auto& map : *side) {
+            bytes += map ? map->memory_bytes() : 0;
+        }
+    }
+    return bytes;
+}
 
 std::size_t DirectMaps::memory_bytes() const {
     std::size_t bytes = 0;

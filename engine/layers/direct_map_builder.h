@@ -8,7 +8,9 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace atrium {
@@ -44,6 +46,20 @@ struct RepairReport {
     std::size_t samples = 0;             ///< calls of direct functions
     std::vector<std::uint32_t> surfaces; ///< whose maps are new, ascending
     bool complete = false;               ///< false when the context asked to stop: the maps are then partly old
+};
+
+/// Where one source of light shines: one of the parts that LiveDirectMaps was made with.
+struct PartSource {
+    std::size_t part = 0;
+    DirectFunction light; ///< that source alone, over its brightness; empty: the part has no other source
+};
+
+/// What one source sends, over its brightness. Light is linear in it.
+struct SourceLight {
+    std::vector<std::pair<std::size_t, std::vector<Rgb>>> nodes; ///< by part, on the grid that LiveDirectMaps keeps
+    /// Texel by texel beside the maps; null where the source does not shine.
+    std::vector<std::shared_ptr<const LightMap>> front, back;
+    [[nodiscard]] std::size_t memory_bytes() const;
 };
 
 /// How fine and how exact. Levels are for tiles of 0.32 m: at level k samples are 0.32 m / 2^k apart.
@@ -86,6 +102,12 @@ public:
     /// `maps` (what build() made) whose light changed. Cells are never joined again; soft parts are looked at on the
     /// coarsest grid where what moved looks largest, and finer samples follow by interpolation of the change.
     RepairReport repair(const LightChange& change, DirectMaps& maps, const RunContext& context);
+    /// The light of one source, from what is known of the parts that it shines in; rays are traced only where these have
+    /// other sources. `brightness`: of the source now. Holds until the next repair. Nothing when asked to stop.
+    [[nodiscard]] std::optional<SourceLight> light_of(std::span<const PartSource> source, const Rgb& brightness,
+                                                      const RunContext& context);
+    /// Makes a source brighter by `change`, for repairs to start from; maps that show it already are the caller's.
+    void add_light(const SourceLight& source, const Rgb& change);
     [[nodiscard]] std::size_t memory_bytes() const;
 
 private:

@@ -191,6 +191,12 @@ std::vector<std::pair<std::uint32_t, LightNode>> fill_unknown_nodes(LightCells& 
 
 LightMap assemble_light_map(std::span<LightCells* const> parts, std::span<const SheetPlace> sheets, std::uint32_t width,
                             std::uint32_t height, const RunContext& context) {
+    return assemble_light_map(parts, parts, sheets, width, height, context);
+}
+
+LightMap assemble_light_map(std::span<LightCells* const> parts, std::span<LightCells* const> all,
+                            std::span<const SheetPlace> sheets, std::uint32_t width, std::uint32_t height,
+                            const RunContext& context) {
     LightMap map;
     map.width = width;
     map.height = height;
@@ -208,7 +214,7 @@ LightMap assemble_light_map(std::span<LightCells* const> parts, std::span<const 
             for (std::uint32_t u = 0; u < s.tiles_u; ++u) {
                 std::uint32_t level = 0;
                 bool any = false;
-                for (const LightCells* part : parts) {
+                for (const LightCells* part : all) {
                     const std::uint32_t own = part->tile_level(part->tile_index(s.sheet, u, v));
                     any = any || own != LightCells::kNone;
                     level = own != LightCells::kNone ? std::max(level, own) : level;

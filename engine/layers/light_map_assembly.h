@@ -28,5 +28,9 @@ std::vector<std::pair<std::uint32_t, LightNode>> fill_unknown_nodes(LightCells& 
 /// stop it: the map is then not to be used.
 LightMap assemble_light_map(std::span<LightCells* const> parts, std::span<const SheetPlace> sheets, std::uint32_t width,
                             std::uint32_t height, const RunContext& context);
+/// The sum of some parts only, texel by texel beside that of all.
+LightMap assemble_light_map(std::span<LightCells* const> parts, std::span<LightCells* const> all,
+                            std::span<const SheetPlace> sheets, std::uint32_t width, std::uint32_t height,
+                            const RunContext& context);
 
 } // namespace atrium

@@ -28,6 +28,13 @@ public:
     /// light is new. False when asked to stop.
     bool repair(const LightChange& change, const RunContext& context, std::vector<std::uint8_t>& changed_sheets);
 
+    /// What one source of this part sends to every node, over its brightness. `source`: that source alone, over its
+    /// brightness; where it is empty the part has no other. Looked at on the coarsest grid, and closer where the source's
+    /// share of the light differs there. Not to be used when `context` asked to stop.
+    [[nodiscard]] std::vector<Rgb> light_of(const DirectFunction& source, const Rgb& brightness, const RunContext& context);
+    /// Makes that source brighter by `change`, for good: what repairs start from.
+    void add_light(const std::vector<Rgb>& of_source, const Rgb& change);
+
     [[nodiscard]] LightCells& cells() { return cells_; }
     [[nodiscard]] const LightCells& cells() const { return cells_; }
     /// Calls of the direct function.
@@ -57,6 +64,9 @@ private:
         float error = 0.0F;
     };
 
+    [[nodiscard]] Rgb light_of_node(const LightNode& node, const DirectFunction& source, const Rgb& most) const;
+    [[nodiscard]] bool guess_share(const LightNode& node, std::uint32_t step, const std::vector<Rgb>& light,
+                                   const Rgb& brightness, Rgb& share) const;
     std::vector<LightCell> first_cells();
     void divide_near_things(std::vector<LightCell>& fresh);
     void leave_out_dark_sheets(std::vector<LightCell>& fresh) const;

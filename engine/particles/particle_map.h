@@ -49,6 +49,13 @@ public:
     /// by the context the map stays as it was.
     ParticleUpdate update(const ParticleScene& scene, std::span<const Box3> boxes, std::span<const std::uint32_t> moved,
                           const RunContext& context);
+    /// Takes over other intensities and colours of the lamps of `direct`, which are as many and where they were, and
+    /// multiplies what emitters sent when they were traced by `emitted` (per surface of the ray scene). Nothing is traced.
+    /// Returns the surfaces with landings of another power than before, ascending.
+    std::vector<std::uint32_t> relight(const DirectLight& direct, std::span<const Rgb> emitted);
+    /// Makes what relight() did to emitters part of the landings, so that update() can go on from there: `scene` has its
+    /// emitters in their new brightness.
+    void settle_emission(const ParticleScene& scene);
     /// Traces all particles of the same links anew: what update() is measured against. False where update() would not fit or
     /// the context stopped; the map is then as it was.
     bool retrace(const ParticleScene& scene, const RunContext& context);

@@ -273,6 +273,40 @@ void ParticleMap::keep_paths(const std::vector<std::uint32_t>& particles, const 
     sum_energy();
 }
 
+std::vector<std::uint32_t> ParticleMap::relight(const DirectLight& direct, std::span<const Rgb> emitted) {
+    std::vector<Rgb> before;
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+        ParticleSource& source = sources_[i];
+        before.push_back(source.radiance);
+        if (source.leaves.empty()) { // lamps come first, in their order
+            source.light = direct.lights()[i];
+            source.radiance = source.light.light.color * source.light.light.intensity;
+        } else {
+            source.radiance = emitted[source.surface];
+        }
+    }
+    std::vector<std::uint8_t> surfaces(emitted.size(), 0);
+    for (const ParticleLink& l : links_) {
+        if (sources_[l.source].radiance != before[l.source]) {
+            mark(std::span(landings_).subspan(l.first, l.landings), surfaces);
+        }
+    }
+    return marked(surfaces);
+}
+
+void ParticleMap::settle_emission(const ParticleScene& scene) {
+    for (const ParticleLink& l : links_) {
+        const ParticleSource& source = sources_[l.source];
+        for (std::size_t i = l.first; !source.leaves.empty() && i < l.first + l.landings; ++i) {
+            landings_[i].throughput *= source.radiance;
+        }
+    }
+    std::vector<ParticleSource> sources = sources_of(scene);
+    if (same_sources(sources_, sources)) { // else update() says so
+        sources_ = std::move(sources);
+    }
+}
+
 bool ParticleMap::retrace(const ParticleScene& scene, const RunContext& context) {
     std::vector<ParticleSource> sources = sources_of(scene);
     if (!complete_ || !same_sources(sources_, sources)) {

@@ -31,6 +31,31 @@ std::vector<PlacedLight> placed_lights(const Scene& scene, const dvec3& origin) 
 DirectLight::DirectLight(const Scene& scene, const RayScene& rays, const RunContext& context)
     : rays_(rays), lights_(placed_lights(scene, rays.origin())), sky_(scene.environment.sky_radiance, rays, context) {}
 
+Rgb per_brightness(const Rgb& light, const Rgb& brightness) {
+    Rgb out(0.0F);
+    float sum = 0.0F;
+    int lit = 0;
+    for (int c = 0; c < 3; ++c) {
+        if (brightness[c] > 0.0F) {
+            out[c] = light[c] / brightness[c];
+            sum += out[c];
+            ++lit;
+        }
+    }
+    for (int c = 0; c < 3 && lit > 0; ++c) {
+        out[c] = brightness[c] > 0.0F ? out[c] : sum / float(lit);
+    }
+    return out;
+}
+
+void DirectLight::set_brightness(std::span<const PlacedLight> lights, const Rgb& sky) {
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        lights_[i].light.color = lights[i].light.color;
+        lights_[i].light.intensity = lights[i].light.intensity;
+    }
+    sky_.set_radiance(sky);
+}
+
 DirectSample DirectLight::irradiance(const vec3& point, const vec3& normal, unsigned sun_rays, unsigned sky_rays) const {
     DirectSample out = lamps_irradiance(point, normal, sun_rays);
     const DirectSample sky = sky_irradiance(point, normal, sky_rays);
@@ -48,6 +73,9 @@ DirectSample DirectLight::lamps_irradiance(const vec3& point, const vec3& normal
     DirectSample out;
     for (const PlacedLight& placed : lights_) {
         const Light& light = placed.light;
+        if (!(max_component(light.color) * light.intensity > 0.0F)) {
+            continue; // switched off since: see set_brightness()
+        }
         if (light.kind == Light::Kind::Directional) {
             add_sun(placed, point, normal, sun_rays, over, out);
             continue;

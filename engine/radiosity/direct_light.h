@@ -4,6 +4,8 @@
 #include "engine/radiosity/sky_light.h"
 #include "engine/raycast/mirror_sight.h"
 
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace atrium {
@@ -19,11 +21,22 @@ struct PlacedLight {
 /// The enabled lights of a scene with the world position of engine (0,0,0), in tree order.
 std::vector<PlacedLight> placed_lights(const Scene& scene, const dvec3& origin);
 
-/// Immutable; safe from any thread.
+/// Light over the brightness of its source, channel by channel. A channel in which the source is dark counts as the mean of
+/// the others: what lies between scatters and absorbs alike in all, but for coloured glass.
+Rgb per_brightness(const Rgb& light, const Rgb& brightness);
+
+/// Immutable but for set_brightness(); safe from any thread.
 class DirectLight {
 public:
     /// Under a sky this looks for the openings that it shines through: see SkyLight.
     DirectLight(const Scene& scene, const RayScene& rays, const RunContext& context = {});
+    /// These lights alone, without a sky.
+    DirectLight(std::vector<PlacedLight> lights, const RayScene& rays)
+        : rays_(rays), lights_(std::move(lights)), sky_(Rgb(0.0F), rays, {}) {}
+
+    /// Takes over the intensities and colours of `lights` (the same ones as lights(), in their order) and of the sky. What
+    /// is dark keeps its place. Not while anybody reads.
+    void set_brightness(std::span<const PlacedLight> lights, const Rgb& sky);
 
     [[nodiscard]] bool empty() const { return lights_.empty() && sky_.empty(); }
     [[nodiscard]] bool has_sky() const { return !sky_.empty(); }

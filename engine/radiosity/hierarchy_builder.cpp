@@ -315,9 +315,6 @@ private:
         e.harmonics = std::uint32_t(out_.harmonics.size());
         Harmonics h;
         Box3 box;
-        dvec3 rho(0.0), emitted(0.0);
-        SurfaceColor color;
-        const Face* last = nullptr; // neighbours are mostly of one surface, whose colour is mostly one
         for (std::uint32_t f = item.first; f < item.first + item.count; ++f) {
             const Face& face = out_.faces[f];
             out_.top[out_.first_triangle[face.surface] + face.triangle][face.back ? 1 : 0] = index;
@@ -328,17 +325,11 @@ private:
             for (std::size_t i = 0; i < kShCount; ++i) {
                 h.projected_area[i] += part[i];
             }
-            if (last == nullptr || last->surface != face.surface || last->back != face.back ||
-                color_varies(rays_, face.surface)) {
-                color = color_at(rays_, face.surface, face.triangle, face.back, vec2(1.0F / 3.0F));
-                last = &face;
-            }
-            rho += dvec3(color.rho) * double(face.area);
-            emitted += dvec3(color.emitted) * double(face.area);
         }
         e.area = out_.faces[item.first + item.count - 1].upto;
-        e.rho = Rgb(rho / double(e.area));
-        e.emitted = Rgb(emitted / double(e.area));
+        const SurfaceColor color = mean_color(out_, rays_, e);
+        e.rho = color.rho;
+        e.emitted = color.emitted;
         e.centre = box.centre();
         e.radius = 0.5F * box.diagonal();
         out_.harmonics.push_back(h);

@@ -11,7 +11,6 @@ namespace {
 constexpr float kWhole = 1e-4F;   // missing share of its bounds below which a cell counts as covered all over
 constexpr float kNothing = 1e-6F; // share of a cell below which what it covers is nothing
 constexpr float kLong = 1.5F;     // sides' ratio from which a cell is halved and not quartered
-constexpr unsigned kColorSamples = 16;
 
 float cross(const vec2& a, const vec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -194,15 +193,9 @@ void make_cell(Hierarchy& h, const RayScene& rays, Element& e, PatchCell cell, C
     if (!sheet.varies) {
         return;
     }
-    SurfaceColor mean;
-    for (unsigned i = 0; i < kColorSamples; ++i) {
-        const CellPoint p = point_in_parts(h, cell, sobol_owen2(i, 0, 29U));
-        const SurfaceColor color = color_at(rays, e.surface, p.triangle, e.back, p.barycentric);
-        mean.rho += color.rho / float(kColorSamples);
-        mean.emitted += color.emitted / float(kColorSamples);
-    }
-    e.rho = mean.rho;
-    e.emitted = mean.emitted;
+    const SurfaceColor color = mean_color(h, rays, e);
+    e.rho = color.rho;
+    e.emitted = color.emitted;
 }
 
 vec2 fold(vec2 u) { return u.x + u.y > 1.0F ? vec2(1.0F) - u : u; }
@@ -210,28 +203,6 @@ vec2 fold(vec2 u) { return u.x + u.y > 1.0F ? vec2(1.0F) - u : u; }
 vec2 inside(vec2 u) { return vec2(0.002F) + fold(u) * 0.994F; }
 
 } // namespace
-
-SurfaceColor color_at(const RayScene& rays, std::uint32_t surface, std::uint32_t triangle, bool back,
-                      const vec2& barycentric) {
-    const Material& m = rays.material(surface);
-    const vec4 color = rays.base_color(surface, triangle, barycentric);
-    Material at_point = m;
-    at_point.base_color = Rgb(color);
-    const float cover = m.alpha_mode == Material::Alpha::Opaque ? 1.0F
-                        : m.alpha_mode == Material::Alpha::Mask ? (color.a >= m.alpha_cutoff ? 1.0F : 0.0F)
-                                                                : color.a;
-    SurfaceColor out;
-    out.rho = diffuse_reflectance(at_point) * cover;
-    if (!back || m.double_sided) {
-        out.emitted = rays.emission(surface, triangle, barycentric) * kPi;
-    }
-    return out;
-}
-
-bool color_varies(const RayScene& rays, std::uint32_t surface) {
-    const Material& m = rays.material(surface);
-    return m.base_color_texture || m.emissive_texture || !rays.surfaces()[surface].mesh->colors.empty();
-}
 
 void make_sheet_patch(Hierarchy& h, const RayScene& rays, std::uint32_t index, std::uint32_t sheet_index, bool back) {
     const Sheet& sheet = h.sheets[sheet_index];

@@ -1,22 +1,11 @@
 // Cells of a sheet: what of the sheet's triangles lies in a rectangle, and points and colours of it.
 #pragma once
 
-#include "engine/radiosity/hierarchy.h"
+#include "engine/radiosity/element_color.h"
 
 #include <span>
 
 namespace atrium {
-
-/// Mean reflectance and exitance of a piece of surface.
-struct SurfaceColor {
-    Rgb rho{0.0F};
-    Rgb emitted{0.0F};
-};
-/// At one point of a triangle side, `barycentric` as in Hit.
-SurfaceColor color_at(const RayScene& rays, std::uint32_t surface, std::uint32_t triangle, bool back,
-                      const vec2& barycentric);
-/// True when textures or vertex colours make color_at() depend on the point.
-bool color_varies(const RayScene& rays, std::uint32_t surface);
 
 /// Fills the element of a whole sheet's side (its kind, place, area and colour) and appends its cell.
 void make_sheet_patch(Hierarchy& hierarchy, const RayScene& rays, std::uint32_t element, std::uint32_t sheet, bool back);

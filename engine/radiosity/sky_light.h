@@ -12,7 +12,7 @@ struct DirectSample {
     float variance = 0.0F; ///< of luminance(irradiance), lux^2, from the visibility samples
 };
 
-/// Immutable; safe from any thread. `rays` must outlive it.
+/// Immutable but for set_radiance(); safe from any thread. `rays` must outlive it.
 class SkyLight {
 public:
     /// `radiance`: of the sky, the same from everywhere, cd/m2; where it is black nothing is done. Looking for openings
@@ -20,6 +20,9 @@ public:
     SkyLight(const Rgb& radiance, const RayScene& rays, const RunContext& context);
 
     [[nodiscard]] bool empty() const { return !(max_component(radiance_) > 0.0F); }
+    [[nodiscard]] const Rgb& radiance() const { return radiance_; }
+    /// Another brightness of the same sky: what it shines through stays. Not from black, and not while anybody reads.
+    void set_radiance(const Rgb& radiance) { radiance_ = radiance; }
     /// Openings without glass that were found.
     /// Panes, then openings.
     [[nodiscard]] std::span<const SkyWindow> windows() const { return windows_; }

@@ -363,6 +363,43 @@ struct RayScene::Impl {
         return take_over(std::move(replaced), *extent_now);
     }
 
+    Result<std::vector<MaterialId>> recolor(const Scene& now) {
+        std::vector<MaterialId> changed, touched;
+        std::string refusal;
+        scene.materials.for_each([&](MaterialId id, const Material& was) {
+            const Material* is = now.materials.find(id);
+            if (is == nullptr || *is == was || !refusal.empty()) {
+                return; // what is gone is move_to()'s to find
+            }
+            touched.push_back(id);
+            const bool painted = is->base_color != was.base_color;
+            if (painted && (is_specular(was) || lets_light_through(was))) {
+                refusal = "the colour of a mirror, a metal or glass changed";
+            }
+            Material back = *is; // all but colours, and what light does not depend on
+            back.base_color = was.base_color;
+            back.emissive_color = was.emissive_color;
+            back.emissive_strength = was.emissive_strength;
+            back.name = was.name;
+            back.extras = was.extras;
+            back.other_extensions = was.other_extensions;
+            back.other_textures = was.other_textures;
+            if (!(back == was)) {
+                refusal = "a material changed in more than its colour";
+            }
+            if (painted || is->emitted_radiance() != was.emitted_radiance()) {
+                changed.push_back(id);
+            }
+        });
+        if (!refusal.empty()) {
+            return fail("", "", refusal, "A whole new solution answers");
+        }
+        for (const MaterialId id : touched) {
+            *scene.materials.find(id) = *now.materials.find(id); // in place: `materials` points there
+        }
+        return changed;
+    }
+
     void take_over(const Scene& now, const std::vector<NodeId>& nodes) {
         for (const NodeId id : nodes) {
             Node* was = scene.nodes.find(id);
@@ -593,6 +630,7 @@ RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
 RayScene::~RayScene() = default;
 
 std::optional<std::vector<MovedSurface>> RayScene::move_to(const Scene& scene) { return impl_->move_to(scene); }
+Result<std::vector<MaterialId>> RayScene::recolor(const Scene& scene) { return impl_->recolor(scene); }
 void RayScene::settle() {
     if (impl_->embree.anything_moved()) {
         impl_->embree.build(impl_->surfaces, impl_->filters);

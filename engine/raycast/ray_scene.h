@@ -1,6 +1,7 @@
 // Rays against the scene's triangles. Embree is used by ray_scene.cpp (embree_triangles.h) and nowhere else.
 #pragma once
 
+#include "engine/base/result.h"
 #include "engine/base/units.h"
 #include "engine/scene/scene.h"
 
@@ -68,7 +69,8 @@ struct MovedSurface {
     Box3 after;
 };
 
-/// Immutable but for move_to(); every query is safe from any thread. Coordinates are engine coordinates: see origin().
+/// Immutable but for move_to() and recolor(); every query is safe from any thread. Coordinates are engine coordinates: see
+/// origin().
 class RayScene {
 public:
     /// Builds from the shown nodes of `scene`, of which it keeps its own copy. Degenerate and non-finite triangles are left
@@ -84,6 +86,10 @@ public:
     /// other shown nodes, shapes, materials or textures, triangles that vanish or come back, another winding, other
     /// reflecting backs. Names, lights, cameras, environment and settings are not looked at.
     [[nodiscard]] std::optional<std::vector<MovedSurface>> move_to(const Scene& scene);
+    /// Takes over from `scene` the base colours of matt, opaque materials and what materials emit, while no query runs.
+    /// Returns the materials whose colour or emission changed. An error that says why, and all is left as it was, where they
+    /// differ in anything else that light depends on. Which emit at all is not looked at.
+    [[nodiscard]] Result<std::vector<MaterialId>> recolor(const Scene& scene);
     /// Makes rays as fast as in a scene that is built anew, where moves left them a little slower: takes most of the time of
     /// building, and the next move of anything is a first one again. Answers stay; no query may run.
     void settle();

@@ -121,6 +121,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     s.sky_radiance = scene.environment.sky_radiance;
     std::unique_ptr<LiveDirectMaps> live_maps;
     std::unique_ptr<LeafExchange> kept_exchange;
+    std::vector<float> sky_over_mirrors;
 
     timer.next("hierarchy");
     context.progress("hierarchy", 0.03);
@@ -277,6 +278,8 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         find_floor();
         s.solved = true;
         kept_exchange = options.keep_for_updates ? std::move(solved_exchange) : nullptr;
+        const bool any_sky = std::any_of(around.sky.begin(), around.sky.end(), [](float share) { return share > 0.0F; });
+        sky_over_mirrors = options.keep_for_updates && any_sky ? around.sky : std::vector<float>{};
     };
     const auto refine_links = [&](float coarser, double at) {
         timer.next("links");
@@ -359,7 +362,9 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         s.live = std::make_unique<Impl::Live>();
         s.live->maps = std::move(live_maps);
         s.live->exchange = std::move(kept_exchange);
+        s.live->sky_over_mirrors = std::move(sky_over_mirrors);
         s.live->layers = set;
+        s.live->mean_radiance = set.mean_radiance;
         for (const RaySurface& surface : s.rays->surfaces()) {
             s.live->placement.push_back(surface.to_engine);
         }

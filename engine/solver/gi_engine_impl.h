@@ -20,6 +20,7 @@
 #include "engine/solver/gi_engine.h"
 #include "engine/solver/quality.h"
 #include "engine/solver/reflected_change.h"
+#include "engine/solver/relight.h"
 
 #include <algorithm>
 #include <map>
@@ -61,9 +62,14 @@ struct GiEngine::Impl {
         LightChange owed;                                ///< what a stopped update left undone
         std::vector<std::uint8_t> new_maps;              ///< per surface: its layer does not show its light maps yet
         QualitySettings quality;
-        float light_floor = 0.0F;              ///< lux: what counts as dark
-        std::vector<Box3> settled_boxes;       ///< where what had moved stood when all was exact last
-        std::vector<std::uint8_t> leaf_looked; ///< per element: its direct light was sampled again then
+        float light_floor = 0.0F;               ///< lux: what counts as dark
+        std::vector<Box3> settled_boxes;        ///< where what had moved stood when all was exact last
+        std::vector<std::uint8_t> leaf_looked;  ///< per element: its direct light was sampled again then
+        bool relight_owed = false;              ///< likewise, of lamps and colours
+        std::vector<std::uint8_t> new_caustics; ///< per surface: its textures do not show its landings' power; or empty
+        std::shared_ptr<Relight> relight;       ///< null until lamps or colours change, and once something moves
+        std::vector<float> sky_over_mirrors;    ///< LeafSurroundings::sky; empty where no mirror or lens shows any
+        double mean_radiance = 0.0;             ///< as shown
     };
     std::unique_ptr<Live> live;
     CausticSettings caustic_settings;
@@ -254,6 +260,12 @@ struct GiEngine::Impl {
 
     // Direct light of a leaf from the light map of its chart; false where it has none.
     bool light_from_map(Element& e, double& spread) const {
+        return mean_of_maps(e, maps.front, maps.back, e.direct, spread);
+    }
+
+    // The mean over a leaf of what maps in the place of `maps` hold.
+    bool mean_of_maps(const Element& e, const std::vector<std::shared_ptr<const LightMap>>& fronts,
+                      const std::vector<std::shared_ptr<const LightMap>>& backs, Rgb& out, double& spread) const {
         if (e.kind != Element::Kind::Patch || charts[e.surface].empty()) {
             return false;
         }
@@ -264,7 +276,7 @@ struct GiEngine::Impl {
             return false;
         }
         const Chart& chart = surface.charts[index];
-        const auto& map = e.back ? maps.back[e.surface] : maps.front[e.surface];
+        const auto& map = e.back ? backs[e.surface] : fronts[e.surface];
         constexpr int kSamples = 32;
         Rgb sum(0.0F);
         double sum2 = 0.0;
@@ -277,8 +289,8 @@ struct GiEngine::Impl {
             sum += light;
             sum2 += double(luminance(light)) * luminance(light);
         }
-        e.direct = sum / float(kSamples);
-        const double mean = luminance(e.direct);
+        out = sum / float(kSamples);
+        const double mean = luminance(out);
         spread = std::sqrt(std::max(sum2 / kSamples - mean * mean, 0.0));
         return true;
     }

@@ -70,12 +70,6 @@ void follow(std::vector<SurfacePoint>& places, const dmat4& motion) {
     }
 }
 
-bool same_lamps(const std::vector<PlacedLight>& a, const std::vector<PlacedLight>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const PlacedLight& x, const PlacedLight& y) {
-        return x.light == y.light && x.node == y.node && x.position == y.position && x.axis == y.axis;
-    });
-}
-
 // Fewer rays as long as it lives: what moves is looked at for the blink of an eye.
 class InAHurry {
 public:
@@ -233,7 +227,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
     const auto seconds_since_start = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-    const auto give_up = [&](const char* why) {
+    const auto give_up = [&](const std::string& why) {
         impl_->live.reset(); // half of it may have followed already
         return fail("", "", why, "A whole new solution answers");
     };
@@ -247,16 +241,23 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     Impl::Live& live = *s.live;
     live.untouched = false;
     const std::uint64_t rays_before = s.rays->rays_traced();
-    if (!same_lamps(placed_lights(scene, s.rays->origin()), s.punctual->lights()) ||
-        scene.environment.sky_radiance != s.sky_radiance) {
-        return give_up("lamps changed");
-    }
     context.progress("ray_scene", 0.0);
+    const auto relit = Relight::follow(s, scene, context);
+    if (!relit) {
+        return context.should_stop() ? fail("", "", relit.error().what, "The next update goes on")
+                                     : give_up(relit.error().what);
+    }
     const auto moved = s.rays->move_to(scene);
     if (!moved) {
-        return give_up("more than places changed");
+        return give_up("more than places and colours changed");
     }
     LightChange& change = live.owed;
+    const bool moves = !moved->empty() || !change.boxes.empty();
+    if (moves && live.relight) {
+        live.relight->settle(s);
+        live.relight.reset();
+    }
+    const bool looks = moves || (options.settle && !live.displaced.empty());
     change.moved.resize(s.rays->surfaces().size(), 0);
     const std::vector<Box3> boxes = boxes_of(*moved);
     change.boxes.insert(change.boxes.end(), boxes.begin(), boxes.end());
@@ -295,6 +296,8 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     UpdateStatistics& report = solution->statistics.update;
     report = {};
     report.degraded = !options.settle;
+    report.sources_changed = relit->sources;
+    report.materials_changed = relit->materials;
 
     context.progress("direct", 0.1);
     PhaseTimer timer(solution->statistics);
@@ -316,7 +319,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     live.new_maps.resize(s.rays->surfaces().size(), 0);
     RepairReport repaired;
     repaired.complete = true;
-    if (live.maps) {
+    if (live.maps && looks) {
         repaired = live.maps->repair(look_at, s.maps, context);
     }
     for (const std::uint32_t surface : repaired.surfaces) {
@@ -325,18 +328,39 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     if (!repaired.complete) {
         return fail("", "", "stopped before the light had followed", "The next update goes on");
     }
-    cover_vertices(s, context);
+    if (moves) {
+        cover_vertices(s, context);
+    }
     if (live.exchange) {
         context.progress("gather", 0.5);
         timer.next("gather");
-        light_leaves_again(s, look_at, context);
-        reflect_change(s, !options.settle, context);
+        if (live.relight && live.displaced.empty()) {
+            if (relit->any) {
+                live.relight->reflect(s, context);
+            }
+        } else if (looks || relit->any) {
+            if (looks) {
+                light_leaves_again(s, look_at, context);
+            }
+            reflect_change(s, !options.settle, context);
+        }
         if (context.should_stop()) {
             return fail("", "", "stopped before the light had followed", "The next update goes on");
         }
     }
     ParticleUpdate particles;
+    std::vector<std::uint32_t> new_textures; // surfaces whose caustics are made anew
     if (s.particles) {
+        std::vector<CausticWish> wishes = caustic_wishes(scene, *s.rays);
+        new_textures = surfaces_with_new_wishes(s.wishes, wishes);
+        s.wishes = std::move(wishes);
+        for (std::uint32_t i = 0; i < live.new_caustics.size(); ++i) {
+            if (live.new_caustics[i] != 0) {
+                new_textures.push_back(i);
+            }
+        }
+    }
+    if (s.particles && moves) {
         context.progress("particles", 0.6);
         timer.next("particles");
         std::vector<std::uint32_t> moved_surfaces;
@@ -359,13 +383,12 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         report.particles_share = particles.share;
         report.links_visited = s.particles->links().size();
         report.links_changed = particles.links;
+        new_textures.insert(new_textures.end(), particles.surfaces.begin(), particles.surfaces.end());
+    }
+    if (s.particles && (moves || !new_textures.empty())) {
         timer.next("caustics");
-        std::vector<CausticWish> wishes = caustic_wishes(scene, *s.rays);
-        std::vector<std::uint32_t> changed = surfaces_with_new_wishes(s.wishes, wishes);
-        changed.insert(changed.end(), particles.surfaces.begin(), particles.surfaces.end());
-        std::sort(changed.begin(), changed.end());
-        s.wishes = std::move(wishes);
-        const CausticReuse reuse{s.caustics, changed};
+        std::sort(new_textures.begin(), new_textures.end());
+        const CausticReuse reuse{s.caustics, new_textures};
         s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse, s.wishes);
     }
 
@@ -376,10 +399,12 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     if (context.should_stop()) {
         return fail("", "", "stopped before the light had followed", "The next update goes on");
     }
-    if (s.particles) {
+    if (s.particles && (moves || !new_textures.empty())) {
         attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics);
     }
     change = {};
+    live.relight_owed = false;
+    live.new_caustics.clear();
     live.new_maps.clear();
     if (options.settle) {
         live.settled_boxes.clear();
@@ -395,6 +420,10 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     solution->surfaces = live.layers.surfaces;
     solution->caustic_records = s.caustics.records;
     solution->landings = options.keep_landings ? landing_places(*s.rays, s.particles.get()) : nullptr;
+    solution->mean_radiance = live.relight ? live.relight->mean_radiance * live.relight->brightening(s) : live.mean_radiance;
+    if (live.relight && live.exchange) {
+        s.energy_balance(*live.exchange, solution->statistics);
+    }
     solution->statistics.converged = false;
     timer.stop();
     solution->statistics.rays = s.rays->rays_traced() - rays_before;

@@ -5,6 +5,17 @@
 #include <algorithm>
 
 namespace atrium {
+namespace {
+
+// What is gathered at a vertex is more exact than leaves are: it follows their ratio. Where they were all but dark a ratio
+// says nothing, and the difference is added. `dark`: lux.
+Rgb followed(const Rgb& vertex, const Rgb& before, const Rgb& now, float dark) {
+    const Rgb known = before / (before + Rgb(std::max(dark, 1e-30F)));
+    const Rgb ratio = now / glm::max(before, Rgb(1e-30F));
+    return glm::max(known * (vertex * ratio) + (Rgb(1.0F) - known) * (vertex + now - before), Rgb(0.0F));
+}
+
+} // namespace
 
 ReflectedChange::ReflectedChange(const Hierarchy& h, const RayScene& rays, const LayerSet& layers) {
     constexpr float kClear = 1e-3F;        // metres: rays down to the leaf start this far above the surface
@@ -70,20 +81,21 @@ std::vector<ReflectedChange::OfVertex> ReflectedChange::of_vertices(const Hierar
         if (leaf == Element::kNone) {
             continue;
         }
-        const Rgb all = h.elements[leaf].irradiance - before_[leaf];
         const Rgb sight = beside.empty() ? Rgb(0.0F) : beside[leaf];
         const std::uint32_t* v = &mesh.indices[3 * t];
         const float own = glm::length(
             glm::cross(mesh.positions[v[1]] - mesh.positions[v[0]], mesh.positions[v[2]] - mesh.positions[v[0]]));
         for (int k = 0; k < 3; ++k) {
-            out[v[k]].all += all * own;
+            out[v[k]].before += before_[leaf] * own;
+            out[v[k]].now += h.elements[leaf].irradiance * own;
             out[v[k]].sight += sight * own;
             out[v[k]].area += own;
         }
     }
     for (OfVertex& v : out) {
         if (v.area > 0.0F) {
-            v.all /= v.area;
+            v.before /= v.area;
+            v.now /= v.area;
             v.sight /= v.area;
         }
     }
@@ -112,8 +124,10 @@ void ReflectedChange::changed(const Hierarchy& h, const std::vector<Rgb>& beside
             }
             continue;
         }
-        const Rgb change = knows ? said[v].all - said[v].sight : said[v].all;
-        out[v] = glm::max(out[v] + change + (knows ? next->light : Rgb(0.0F)), Rgb(0.0F));
+        if (said[v].area > 0.0F) {
+            out[v] = followed(out[v], said[v].before, glm::max(said[v].now - said[v].sight, Rgb(0.0F)), trace_);
+        }
+        out[v] = glm::max(out[v] + (knows ? next->light : said[v].sight), Rgb(0.0F));
     }
     // From the rim inwards.
     for (; any_covered;) {
@@ -124,7 +138,7 @@ void ReflectedChange::changed(const Hierarchy& h, const std::vector<Rgb>& beside
             for (int k = 0; k < 3; ++k) {
                 for (int j = 0; j < 3; ++j) {
                     if (covered[v[k]] != 0 && covered[v[j]] == 0) {
-                        around[v[k]].all += out[v[j]];
+                        around[v[k]].now += out[v[j]];
                         around[v[k]].area += 1.0F;
                     }
                 }
@@ -132,7 +146,7 @@ void ReflectedChange::changed(const Hierarchy& h, const std::vector<Rgb>& beside
         }
         for (std::uint32_t v = 0; v < out.size(); ++v) {
             if (around[v].area > 0.0F) {
-                out[v] = around[v].all / around[v].area;
+                out[v] = around[v].now / around[v].area;
                 covered[v] = 0;
                 any_covered = true;
             }

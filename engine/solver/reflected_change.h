@@ -32,18 +32,6 @@ public:
     /// add_to().
     ReflectedChange(const Hierarchy& hierarchy, const RayScene& rays, const LayerSet& layers);
 
-    /// What the leaves say of the vertices of a layer's side, lux: the whole change, and what of it comes from changed
-    /// sight.
-    struct OfVertex {
-        Rgb all{0.0F}, sight{0.0F};
-        float area = 0.0F; ///< of the triangles around; 0 = nothing is known
-    };
-    [[nodiscard]] std::vector<OfVertex> of_vertices(const Hierarchy& hierarchy, const std::vector<Rgb>& beside,
-                                                    const DisplayMesh& mesh, std::size_t layer, bool back) const;
-    /// Irradiance in the complete solution, lux per vertex.
-    [[nodiscard]] const std::vector<Rgb>& base(std::size_t layer, bool back) const {
-        return back ? surfaces_[layer].back.base : surfaces_[layer].front.base;
-    }
     /// Puts base irradiance + change of the leaves' irradiance on layers where it is more than a trace; the number of these.
     /// `beside` = per element, what of its leaves' irradiance changed sight made (empty: none); `known` = per layer,
     /// vertices that know better (empty: none), in order of vertex and side.
@@ -60,6 +48,14 @@ private:
     struct Surface {
         Side front, back;
     };
+    /// What the leaves say of the vertices of a layer's side, lux.
+    struct OfVertex {
+        Rgb before{0.0F}, now{0.0F};
+        Rgb sight{0.0F};   ///< what of `now` comes from changed sight
+        float area = 0.0F; ///< of the triangles around; 0 = nothing is known, or nothing changed
+    };
+    [[nodiscard]] std::vector<OfVertex> of_vertices(const Hierarchy& hierarchy, const std::vector<Rgb>& beside,
+                                                    const DisplayMesh& mesh, std::size_t layer, bool back) const;
     void changed(const Hierarchy& hierarchy, const std::vector<Rgb>& beside, const DisplayMesh& mesh, std::size_t layer,
                  const std::vector<VertexChange>& known, bool back, std::vector<Rgb>& out) const;
 

@@ -11,12 +11,14 @@ namespace atrium {
 
 /// What it took to bring the light up to date after edits. All of it is zero for a solve from scratch.
 struct UpdateStatistics {
-    bool degraded = false;              ///< made in a hurry during a gesture; a full update follows
-    std::uint64_t particles_traced = 0; ///< those that had to be sent again
-    double particles_share = 0;         ///< of all particles of the scene, 0 to 1
-    std::uint64_t links_visited = 0;    ///< looked at to find what the edit touches
-    std::uint64_t links_changed = 0;    ///< computed again, made or removed
-    std::uint64_t octree_bytes = 0;     ///< of the tree that tells which particles pass where
+    bool degraded = false;               ///< made in a hurry during a gesture; a full update follows
+    std::uint64_t particles_traced = 0;  ///< those that had to be sent again
+    double particles_share = 0;          ///< of all particles of the scene, 0 to 1
+    std::uint64_t links_visited = 0;     ///< looked at to find what the edit touches
+    std::uint64_t links_changed = 0;     ///< computed again, made or removed
+    std::uint64_t octree_bytes = 0;      ///< of the tree that tells which particles pass where
+    std::uint64_t sources_changed = 0;   ///< lamps, emitting materials and skies that were dimmed or coloured
+    std::uint64_t materials_changed = 0; ///< whose colour or emission is another
     friend bool operator==(const UpdateStatistics&, const UpdateStatistics&) = default;
 };
 

@@ -37,3 +37,6 @@ target_link_libraries(drag_bench PRIVATE atrium_engine CLI11::CLI11)
 
 add_executable(direct_light_bench ${CMAKE_CURRENT_LIST_DIR}/direct_light_bench.cpp)
 target_link_libraries(direct_light_bench PRIVATE atrium_engine CLI11::CLI11)
+
+add_executable(relight_bench ${CMAKE_CURRENT_LIST_DIR}/relight_bench.cpp)
+target_link_libraries(relight_bench PRIVATE atrium_engine CLI11::CLI11)

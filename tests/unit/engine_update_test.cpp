@@ -110,7 +110,7 @@ void follow_the_hand(float rho, double most, double settled_most) {
 // Nearly black walls: all light is direct, and that is as good as new but for fewer rays.
 TEST(EngineUpdate, DirectLightFollowsTheHand) { follow_the_hand(0.02F, 0.1, 0.05); }
 // White ones: what they reflect follows too, sight of the box and past it included.
-TEST(EngineUpdate, LightInAWhiteRoomFollowsTheHand) { follow_the_hand(0.7F, 0.2, 0.15); }
+TEST(EngineUpdate, LightInAWhiteRoomFollowsTheHand) { follow_the_hand(0.7F, 0.25, 0.15); }
 
 TEST(EngineUpdate, SaysWhenOnlyASolutionHelps) {
     const auto refuses = [](const std::function<void(Room&)>& edit) {
@@ -123,7 +123,6 @@ TEST(EngineUpdate, SaysWhenOnlyASolutionHelps) {
         EXPECT_TRUE(room.engine.can_update());
     };
     refuses([](Room& r) { r.scene.nodes.find(r.point)->transform.translation.x += 0.1; });
-    refuses([](Room& r) { r.scene.lights.find(r.scene.nodes.find(r.point)->light)->intensity *= 2.0F; });
     refuses([](Room& r) { r.scene.nodes.find(r.lamp)->transform.translation.x += 0.1; });
     refuses([](Room& r) { r.scene.nodes.find(r.box)->transform.scale = dvec3(2.0); });
     refuses([](Room& r) { add_shape(r.scene, "ball", Sphere{0.2F}, {3, 1, 3}, add_material(r.scene, 0.5F)); });
