@@ -7,12 +7,17 @@
 namespace atrium {
 namespace {
 
-// What is gathered at a vertex is more exact than leaves are: it follows their ratio. Where they were all but dark a ratio
-// says nothing, and the difference is added. `dark`: lux.
+constexpr float kMostShare = 4.0F; // beyond it vertex and leaves have little to do with each other
+
+// What is gathered at a vertex is more exact than leaves are. Light that goes is taken in proportion to what the vertex has
+// of its leaves' light, so that nothing is left of what went out; light that comes is half as even as that, since paint
+// brings it from all sides and a lamp from where it came before. Where leaves were all but dark proportions say nothing.
+// `dark`: lux.
 Rgb followed(const Rgb& vertex, const Rgb& before, const Rgb& now, float dark) {
     const Rgb known = before / (before + Rgb(std::max(dark, 1e-30F)));
-    const Rgb ratio = now / glm::max(before, Rgb(1e-30F));
-    return glm::max(known * (vertex * ratio) + (Rgb(1.0F) - known) * (vertex + now - before), Rgb(0.0F));
+    const Rgb share = Rgb(1.0F) + known * (vertex / glm::max(before, Rgb(1e-30F)) - Rgb(1.0F));
+    const Rgb less = glm::min(now - before, Rgb(0.0F)), more = glm::max(now - before, Rgb(0.0F));
+    return glm::max(vertex + less * share + more * (0.5F * (Rgb(1.0F) + glm::min(share, Rgb(kMostShare)))), Rgb(0.0F));
 }
 
 } // namespace

@@ -8,16 +8,17 @@
 namespace atrium {
 namespace {
 
-constexpr std::uint32_t kLeafPoints = 4; // of a leaf without a light map
+constexpr std::uint32_t kLeafPoints = 2; // of a leaf without a light map
 
 bool lit(const Rgb& light) { return max_component(light) > 0.0F; }
 
-// As while something moves: for the blink of an eye.
+// As while something moves: for the blink of an eye. A lamp of many small faces is all the light that there is when it is
+// looked at alone, and would be gathered face by face from everywhere: from afar it is its harmonics.
 GatherSettings fewer_rays(GatherSettings settings) {
     settings.rays = std::max(settings.rays / 4, 8U);
     settings.sun_rays = std::max(settings.sun_rays / 2, 8U);
     settings.sky_rays = std::max(settings.sky_rays / 3, 16U);
-    settings.tolerance *= 4.0F;
+    settings.tolerance = 0.45F;
     settings.max_cut /= 2;
     return settings;
 }
