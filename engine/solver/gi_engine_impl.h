@@ -65,6 +65,7 @@ struct GiEngine::Impl {
         float light_floor = 0.0F;               ///< lux: what counts as dark
         std::vector<Box3> settled_boxes;        ///< where what had moved stood when all was exact last
         std::vector<std::uint8_t> leaf_looked;  ///< per element: its direct light was sampled again then
+        bool relit = false;                     ///< lamps or colours changed since the complete solution
         bool relight_owed = false;              ///< likewise, of lamps and colours
         std::vector<std::uint8_t> new_caustics; ///< per surface: its textures do not show its landings' power; or empty
         std::shared_ptr<Relight> relight;       ///< null until lamps or colours change, and once something moves

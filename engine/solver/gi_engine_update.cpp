@@ -295,7 +295,8 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     auto solution = std::make_shared<Solution>(*live.shown);
     UpdateStatistics& report = solution->statistics.update;
     report = {};
-    report.degraded = !options.settle;
+    live.relit = live.relit || relit->any;
+    report.degraded = !options.settle || live.relit; // reflected light on vertices only follows what leaves say
     report.sources_changed = relit->sources;
     report.materials_changed = relit->materials;
 
