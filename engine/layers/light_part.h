@@ -130,4 +130,17 @@ private:
     std::size_t sampled_ = 0;         ///< nodes that were sampled
 };
 
+template <class Visit> void LightPart::for_probes(const LightCell& c, const Visit& visit) const {
+    const std::uint32_t s = cells_.steps(c.level), edge = cells_.steps(probe_level_);
+    for (std::uint32_t y = c.y; y < c.y + s; y += edge) {
+        for (std::uint32_t x = c.x; x < c.x + s; x += edge) {
+            const Probe& probe = probes_[probe_index(c.sheet, x, y)];
+            const vec2 at = probe.at - vec2(float(c.x), float(c.y));
+            if (at.x >= 0.0F && at.y >= 0.0F && at.x < float(s) && at.y < float(s)) {
+                visit(probe, at);
+            }
+        }
+    }
+}
+
 } // namespace atrium

@@ -163,6 +163,19 @@ TEST(LiveDirectMaps, SoftLightFollowsOnTheCoarseGrid) {
     EXPECT_LE(report.samples, 1024U);
 }
 
+// A small shadow comes to lie between the corners of whole tiles, where nothing stood before.
+TEST(LiveDirectMaps, SoftLightIsLookedAtCloselyWhereSomethingComesToStand) {
+    Shadow shadow;
+    shadow.radius = 0.12F;
+    auto live = shadow.live(true);
+    DirectMaps maps = live->build(0.0, 1.0);
+    const LightChange change = shadow.move(vec2(-1.2F, 0.16F) - shadow.centre);
+    EXPECT_NEAR(shadow.shown(maps, shadow.centre), kFull, 1.0);
+    ASSERT_TRUE(live->repair(change, maps, shadow.context).complete);
+    EXPECT_NEAR(shadow.shown(maps, shadow.centre), 0.0, 1.0);
+    EXPECT_NEAR(shadow.shown(maps, shadow.centre + vec2(0.3F, 0.0F)), kFull, 1.0);
+}
+
 // Neither sharp nor soft: as soon as very much is touched, the coarsest samples stand for the others.
 TEST(LiveDirectMaps, LargeChangesOfDearLightCostABoundedNumberOfSamples) {
     Shadow shadow;
