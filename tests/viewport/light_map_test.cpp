@@ -350,11 +350,11 @@ TEST_F(LightMaps, NewLightIsShownWhenItsMapsAreThereAndNothingWaitsForThem) {
     open(scene, lit_plane(scene, Maps::Both), eye, {0, 0, 0});
     QTest::qWait(800); // the smoothed picture must not come in between
     const QImage before = grab();
-    // 2 M samples: several turns of the event loop.
+    // 4 M samples: several turns of the event loop, on any machine.
     auto next = lit_plane(scene, Maps::Front);
     auto layer = std::make_shared<SurfaceLayer>(*next->surfaces[0]);
     auto large = std::make_shared<LightMap>(*layer->direct_map_front);
-    large->image_height = 1024;
+    large->image_height = 2048;
     std::vector<Rgb> wide(std::size_t(2048) * large->image_height, Rgb(5.0F));
     for (std::size_t y = 0; y < layer->direct_map_front->image_height; ++y) {
         std::copy_n(&layer->direct_map_front->image[y * large->image_width], large->image_width, &wide[y * 2048]);
@@ -385,7 +385,7 @@ TEST_F(LightMaps, NewLightIsShownWhenItsMapsAreThereAndNothingWaitsForThem) {
     }
     std::printf("[ light map ] %d turns of the event loop, the worst %.1f ms\n", old_turns, worst);
     EXPECT_TRUE(done);
-    EXPECT_GT(old_turns, 3) << "the old light stays meanwhile";
+    EXPECT_GT(old_turns, 2) << "the old light stays meanwhile";
     // One turn may be made longer by the machine (pages that are touched for the first time).
     EXPECT_LT(second, 16.0) << "a slice is a few milliseconds";
     EXPECT_LT(worst, 50.0) << "all at once takes a hundred";
