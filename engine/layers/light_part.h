@@ -78,6 +78,8 @@ private:
 
     [[nodiscard]] std::optional<vec3> place_of(std::uint32_t sheet, const vec2& steps) const;
     [[nodiscard]] bool may_change(const LightChange& change, std::uint32_t sheet, const vec2& steps, float radius) const;
+    [[nodiscard]] bool may_change_at(const LightChange& change, const vec3& point, float radius) const;
+    bool node_may_change(const LightChange& change, std::uint32_t node);
     [[nodiscard]] bool may_change_round(const LightChange& change, std::uint32_t surface) const;
     [[nodiscard]] std::vector<std::uint8_t> tiles_to_look_at(const LightChange& change) const;
     void divide_around(const LightChange& change);
@@ -124,6 +126,7 @@ private:
     std::vector<Request> requests_;
     bool repairing_ = false;
     bool coarse_repair_ = false;      ///< the repair at hand looks at the coarsest nodes only
+    std::vector<vec3> round_places_;  ///< per node, of round charts, as far as repairs asked; empty without any
     std::vector<std::uint8_t> stale_; ///< per node (those beyond its end: 0): left out or guessed by a repair in a hurry
     std::size_t asked_ = 0;           ///< nodes that were asked for
     std::size_t taken_ = 0;           ///< samples

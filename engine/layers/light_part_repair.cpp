@@ -17,6 +17,8 @@ struct Most {
     std::size_t coarse;
 };
 constexpr Most kInAHurry{16384, 2048, 512};
+const vec3 kUnknownPlace(std::numeric_limits<float>::quiet_NaN());
+const vec3 kNoPlace(std::numeric_limits<float>::infinity());
 constexpr Most kExact{1U << 20, 32768, 16384};
 
 } // namespace
@@ -37,10 +39,33 @@ bool LightPart::may_change(const LightChange& change, std::uint32_t sheet, const
         return true;
     }
     const auto point = place_of(sheet, steps);
-    return point && std::any_of(change.boxes.begin(), change.boxes.end(), [&](const Box3& box) {
-               const vec3 off = glm::max(glm::max(box.min - *point, *point - box.max), vec3(0.0F));
-               return glm::length(off) <= settings_.cover_reach + radius || part_.touched(*point, radius, box);
-           });
+    return point && may_change_at(change, *point, radius);
+}
+
+bool LightPart::may_change_at(const LightChange& change, const vec3& point, float radius) const {
+    return std::any_of(change.boxes.begin(), change.boxes.end(), [&](const Box3& box) {
+        const vec3 off = glm::max(glm::max(box.min - point, point - box.max), vec3(0.0F));
+        return glm::length(off) <= settings_.cover_reach + radius || part_.touched(point, radius, box);
+    });
+}
+
+// Where nodes of round charts lie is looked up once, until their surface moves. Called for different nodes at once.
+bool LightPart::node_may_change(const LightChange& change, std::uint32_t node) {
+    const LightNode& n = cells_.nodes[node];
+    const LightSheet& sheet = sheets_.sheets()[n.sheet];
+    const vec2 steps(float(n.x), float(n.y));
+    if (sheet.chart->planar || !part_.touched) {
+        return may_change(change, n.sheet, steps, 0.0F);
+    }
+    vec3& place = round_places_[node];
+    if (change.moved[sheet.surface] != 0) {
+        place = kUnknownPlace;
+        return true;
+    }
+    if (std::isnan(place.x)) {
+        place = place_of(n.sheet, steps).value_or(kNoPlace);
+    }
+    return place.x < kNoPlace.x && may_change_at(change, place, 0.0F);
 }
 
 // Round charts bend away from any plane: all of the surface at once.
@@ -132,13 +157,17 @@ std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
     };
     std::vector<std::uint8_t> hit(cells_.nodes.size(), 0);
     stale_.resize(cells_.nodes.size(), 0);
+    const auto& sheets = sheets_.sheets();
+    if (std::any_of(sheets.begin(), sheets.end(), [](const LightSheet& s) { return !s.chart->planar; })) {
+        round_places_.resize(cells_.nodes.size(), kUnknownPlace);
+    }
     parallel_chunks(hit.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context_->should_stop(); ++i) {
             const LightNode& n = cells_.nodes[i];
             const bool skipped = part_.soft && ((n.x | n.y) & coarse) != 0;
             const bool asks = (change.exact && !skipped && stale_[i] != 0) ||
                               (!skipped && n.state != State::Void && on_tile(n.sheet, n.x, n.y) &&
-                               may_change(change, n.sheet, vec2(float(n.x), float(n.y)), 0.0F));
+                               node_may_change(change, std::uint32_t(i)));
             hit[i] = asks ? 1 : 0;
         }
     });
@@ -362,7 +391,8 @@ bool LightPart::repair(const LightChange& change, const RunContext& context, std
 }
 
 std::size_t LightPart::memory_bytes() const {
-    return cells_.memory_bytes() + probes_.size() * sizeof(Probe) + first_probe_.size() * sizeof(std::size_t);
+    return cells_.memory_bytes() + probes_.size() * sizeof(Probe) + first_probe_.size() * sizeof(std::size_t) +
+           round_places_.size() * sizeof(vec3) + stale_.size();
 }
 
 } // namespace atrium

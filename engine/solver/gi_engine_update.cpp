@@ -12,6 +12,34 @@ namespace {
 
 constexpr std::size_t kMostBoxes = 8; // that are looked at singly
 
+// Boxes that lie close together become one: every sample is tested against each. Of very many what is around all.
+void join_boxes(std::vector<Box3>& boxes) {
+    constexpr float kLittleMore = 1.25F; // diagonal of what is around both, over that of the larger
+    for (bool joined = true; joined;) {
+        joined = false;
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            for (std::size_t k = i + 1; k < boxes.size();) {
+                Box3 both = boxes[i];
+                both.add(boxes[k]);
+                if (both.diagonal() > kLittleMore * std::max(boxes[i].diagonal(), boxes[k].diagonal())) {
+                    ++k;
+                    continue;
+                }
+                boxes[i] = both;
+                boxes.erase(boxes.begin() + std::ptrdiff_t(k));
+                joined = true;
+            }
+        }
+    }
+    if (boxes.size() > kMostBoxes) {
+        Box3 all;
+        for (const Box3& b : boxes) {
+            all.add(b);
+        }
+        boxes = {all};
+    }
+}
+
 // Bounds before and after of what moved; of very many surfaces those of all together.
 std::vector<Box3> boxes_of(std::span<const MovedSurface> moved) {
     std::vector<Box3> out;
@@ -25,18 +53,8 @@ std::vector<Box3> boxes_of(std::span<const MovedSurface> moved) {
     if (out.size() > kMostBoxes) {
         out = {before, after};
     }
+    join_boxes(out);
     return out;
-}
-
-// Of very many boxes the one around all.
-void join_boxes(std::vector<Box3>& boxes) {
-    if (boxes.size() > kMostBoxes) {
-        Box3 all;
-        for (const Box3& b : boxes) {
-            all.add(b);
-        }
-        boxes = {all};
-    }
 }
 
 // Charts go with their surface; their coordinates and tiles stay. False where it was stretched.
@@ -261,6 +279,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     change.moved.resize(s.rays->surfaces().size(), 0);
     const std::vector<Box3> boxes = boxes_of(*moved);
     change.boxes.insert(change.boxes.end(), boxes.begin(), boxes.end());
+    join_boxes(change.boxes);
     bool mirror_moved = false;
     for (const MovedSurface& m : *moved) {
         const RaySurface& surface = s.rays->surfaces()[m.surface];
