@@ -106,7 +106,7 @@ QualityScheduler::Kind QualityScheduler::kind() const {
     if (!updatable_ || !(needed_ || unsettled_)) {
         return Kind::Full;
     }
-    return needed_ && in_gesture_ ? Kind::Hurried : Kind::Settle;
+    return needed_ ? Kind::Hurried : Kind::Settle; // a quick answer first, whatever the edit was
 }
 
 QualityScheduler::Time QualityScheduler::start_time() const {

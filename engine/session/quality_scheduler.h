@@ -8,9 +8,9 @@
 namespace atrium {
 
 /// One solve at a time, always of the newest scene. Outside a gesture an edit stops a stale solve at once. Within a gesture
-/// light follows by hurried updates, if the engine keeps a complete solution to start from. When the hand rests or lets go,
-/// and after every single edit, an exact update settles the light, and the full solve comes after it. Without a complete
-/// solution the running solve goes on until the hand rests, so that there is light to see while dragging.
+/// light follows by hurried updates, if the engine keeps a complete solution to start from, and so it does after a single
+/// edit. When the hand rests or lets go an exact update settles the light, and the full solve comes after it. Without a
+/// complete solution the running solve goes on until the hand rests, so that there is light to see while dragging.
 class QualityScheduler {
 public:
     using Time = RunContext::Clock::time_point;

@@ -316,28 +316,47 @@ TEST_F(HurriedScheduler, AHandThatRestsGetsFullQualityAndMayGoOn) {
     EXPECT_EQ(next(), "settle");
 }
 
-TEST_F(HurriedScheduler, ASingleEditIsSettledAtOnce) {
+TEST_F(HurriedScheduler, ASingleEditIsAnsweredAtOnceAndSettled) {
     EXPECT_EQ(edit(false), "start");
+    EXPECT_EQ(next(), "hurried");
+    EXPECT_FALSE(s.moving()) << "no hand is at it";
+    EXPECT_EQ(finished(Outcome::Hurried), "start");
     EXPECT_EQ(next(), "settle");
     EXPECT_EQ(edit(false), "stop") << "of an older scene";
     EXPECT_EQ(finished(Outcome::Stopped), "start");
+    EXPECT_EQ(next(), "hurried");
+    EXPECT_EQ(finished(Outcome::Hurried), "start");
     EXPECT_EQ(next(), "settle");
     EXPECT_EQ(finished(Outcome::Settled), "start");
     EXPECT_EQ(next(), "full");
     EXPECT_EQ(edit(false), "stop");
     EXPECT_EQ(finished(Outcome::Stopped), "start");
-    EXPECT_EQ(next(), "settle") << "the last complete light is still there to start from";
+    EXPECT_EQ(next(), "hurried") << "the last complete light is still there to start from";
     EXPECT_EQ(finished(Outcome::Unfit), "start");
     EXPECT_EQ(next(), "full") << "it was no such edit";
     s.on_finished(Outcome::Final, true);
     EXPECT_EQ(wants(), "-");
 }
 
+// The last place of a hand is shown quickly even when it lets go in the middle of an update.
+TEST_F(HurriedScheduler, LettingGoDuringAnUpdateFollowsOnceMore) {
+    edit(true);
+    next();
+    EXPECT_EQ(edit(true), "-");
+    s.on_gesture_end();
+    EXPECT_EQ(finished(Outcome::Hurried), "start");
+    EXPECT_EQ(next(), "hurried");
+    EXPECT_EQ(finished(Outcome::Hurried), "start");
+    EXPECT_EQ(next(), "settle");
+}
+
 TEST_F(HurriedScheduler, CancelWhileRefiningKeepsTheExactLight) {
     edit(false);
     next();
-    finished(Outcome::Settled);
+    finished(Outcome::Hurried);
     next();
+    finished(Outcome::Settled);
+    EXPECT_EQ(next(), "full");
     s.on_cancel();
     EXPECT_EQ(wants(), "stop");
     EXPECT_EQ(finished(Outcome::Stopped), "-");
@@ -367,7 +386,7 @@ TEST_F(HurriedScheduler, CancelAndAnotherDocumentForgetIt) {
     EXPECT_EQ(wants(), "-") << "cancelled";
     s.on_resume();
     EXPECT_EQ(wants(), "start");
-    EXPECT_EQ(next(), "settle");
+    EXPECT_EQ(next(), "hurried");
     s.on_load(false, false);
     finished(Outcome::Stopped);
     EXPECT_EQ(wants(), "start");
