@@ -15,6 +15,13 @@ constexpr std::size_t kFewMoved = 2048;
 
 constexpr float kBoxSlack = 1e-5F; // of its coordinates
 
+bool anything_on(RTCScene scene, RTCRay& ray) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene, &context, &ray);
+    return ray.tfar < 0.0F;
+}
+
 void on_embree_error(void*, RTCError, const char* message) { std::fprintf(stderr, "embree: %s\n", message); }
 
 } // namespace
@@ -246,12 +253,9 @@ bool EmbreeTriangles::meets_moved(const vec3& from, const vec3& direction, float
         if (scene == nullptr || !meets(reach, from, direction, tnear, tfar)) {
             return false;
         }
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
         RTCRay query;
         fill(query, from, direction, tnear, tfar, kOpaque | kFilter);
-        rtcOccluded1(scene, &context, &query);
-        return query.tfar < 0.0F;
+        return anything_on(scene, query);
     };
     return any(moved_, moved_reach_) || any(before_, before_reach_);
 }
@@ -275,10 +279,7 @@ bool EmbreeTriangles::blocked_by_moved(RTCRay& query) const {
                query.tfar)) {
         return false;
     }
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(moved_, &context, &query);
-    return query.tfar < 0.0F;
+    return anything_on(moved_, query);
 }
 
 unsigned EmbreeTriangles::blocked_of_8(const vec3& from, std::span<const vec3> directions, float tnear) const {
