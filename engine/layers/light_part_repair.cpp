@@ -113,12 +113,13 @@ std::vector<std::uint8_t> LightPart::tiles_to_look_at(const LightChange& change)
     return out;
 }
 
-// Soft light costs many rays: of very many nodes those from where what moved looks largest, in order of index.
+// Soft light costs many rays: of very many nodes those from where what moved looks largest, in order of index. What moved
+// sees itself best of all and has half of them at most, or nothing would be left for its surroundings.
 void LightPart::keep_most_seen(const LightChange& change, std::size_t most, std::vector<std::uint32_t>& nodes) const {
     if (nodes.size() <= most) {
         return;
     }
-    std::vector<std::pair<float, std::uint32_t>> seen;
+    std::vector<std::pair<float, std::uint32_t>> own, around;
     for (const std::uint32_t i : nodes) {
         const LightNode& n = cells_.nodes[i];
         float angle = 0.0F;
@@ -126,13 +127,15 @@ void LightPart::keep_most_seen(const LightChange& change, std::size_t most, std:
         for (const Box3& box : change.boxes) {
             angle = point ? std::max(angle, box.diagonal() / std::max(glm::length(box.centre() - *point), 1e-3F)) : angle;
         }
-        seen.emplace_back(-angle, i);
+        (change.moved[sheets_.sheets()[n.sheet].surface] != 0 ? own : around).emplace_back(-angle, i);
     }
-    std::nth_element(seen.begin(), seen.begin() + std::ptrdiff_t(most), seen.end());
-    seen.resize(most);
+    const std::size_t of_own = std::min(own.size(), std::max(most / 2, most - std::min(most, around.size())));
     nodes.clear();
-    for (const auto& [angle, i] : seen) {
-        nodes.push_back(i);
+    for (auto& [seen, count] : {std::pair(&own, of_own), std::pair(&around, std::min(around.size(), most - of_own))}) {
+        std::nth_element(seen->begin(), seen->begin() + std::ptrdiff_t(count), seen->end());
+        for (std::size_t k = 0; k < count; ++k) {
+            nodes.push_back((*seen)[k].second);
+        }
     }
     std::sort(nodes.begin(), nodes.end());
 }
