@@ -1,12 +1,14 @@
 #include "engine/base/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <pmmintrin.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <thread>
+#include <vector>
 #include <xmmintrin.h>
 
 namespace atrium {
@@ -14,6 +16,26 @@ namespace {
 std::mutex limit_mutex; // guards the two below
 std::unique_ptr<tbb::global_control> limit_control;
 unsigned limit_value = 0;
+
+// Calls `body` for every index below `count`, on several threads.
+template <class F> void on_threads(std::size_t count, const F& body) {
+#if defined(__SANITIZE_THREAD__)
+    // Debian's TBB is built without the thread sanitizer, which would take each of its hand-overs for a race.
+    std::atomic<std::size_t> next{0};
+    const auto work = [&] {
+        for (std::size_t i = next++; i < count; i = next++) {
+            body(i);
+        }
+    };
+    std::vector<std::jthread> helpers;
+    while (helpers.size() + 1 < std::min<std::size_t>(count, thread_limit())) {
+        helpers.emplace_back(work);
+    }
+    work();
+#else
+    tbb::parallel_for(std::size_t(0), count, body);
+#endif
+}
 } // namespace
 
 void set_thread_limit(unsigned threads) {
@@ -37,7 +59,7 @@ void parallel_chunks(std::size_t count, std::size_t grain,
         return;
     }
     const std::size_t chunks = chunk_count(count, grain);
-    tbb::parallel_for(std::size_t(0), chunks, [&](std::size_t chunk) {
+    on_threads(chunks, [&](std::size_t chunk) {
         // Worker threads belong to TBB, so the mode is set per chunk (two instructions) and put back after it.
         const unsigned saved = _mm_getcsr();
         _mm_setcsr(saved | _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON);
