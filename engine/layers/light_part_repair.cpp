@@ -1,6 +1,7 @@
 // Looking again at the samples of a part of the direct light that a change may reach.
 #include "engine/base/parallel.h"
 #include "engine/layers/light_part.h"
+#include "engine/radiosity/light_shafts.h"
 
 #include <algorithm>
 #include <tuple>
@@ -17,9 +18,10 @@ struct Most {
     std::size_t coarse;
 };
 constexpr Most kInAHurry{16384, 2048, 512};
+constexpr Most kExact{1U << 20, 32768, 16384};
+
 const vec3 kUnknownPlace(std::numeric_limits<float>::quiet_NaN());
 const vec3 kNoPlace(std::numeric_limits<float>::infinity());
-constexpr Most kExact{1U << 20, 32768, 16384};
 
 } // namespace
 
@@ -44,8 +46,7 @@ bool LightPart::may_change(const LightChange& change, std::uint32_t sheet, const
 
 bool LightPart::may_change_at(const LightChange& change, const vec3& point, float radius) const {
     return std::any_of(change.boxes.begin(), change.boxes.end(), [&](const Box3& box) {
-        const vec3 off = glm::max(glm::max(box.min - point, point - box.max), vec3(0.0F));
-        return glm::length(off) <= settings_.cover_reach + radius || part_.touched(point, radius, box);
+        return distance_to(box, point) <= settings_.cover_reach + radius || part_.touched(point, radius, box);
     });
 }
 
@@ -294,10 +295,8 @@ void LightPart::divide_around(const LightChange& change) {
         const float half = 0.5F * float(cells_.steps(c.level));
         const auto middle = place_of(c.sheet, vec2(float(c.x), float(c.y)) + half);
         const float close = 1.5F * edge_metres(c);
-        return middle && std::any_of(change.boxes.begin(), change.boxes.end(), [&](const Box3& box) {
-                   const vec3 off = glm::max(glm::max(box.min - *middle, *middle - box.max), vec3(0.0F));
-                   return glm::length(off) < close;
-               });
+        return middle && std::any_of(change.boxes.begin(), change.boxes.end(),
+                                     [&](const Box3& box) { return distance_to(box, *middle) < close; });
     };
     std::vector<LightCell> leaves;
     for (std::uint32_t sheet = 0; sheet < sheets_.sheets().size(); ++sheet) {

@@ -45,6 +45,11 @@ private:
     bool all_round_ = false;
 };
 
+/// From a point to the nearest of a box; 0 inside.
+inline float distance_to(const Box3& box, const vec3& point) {
+    return glm::length(glm::max(glm::max(box.min - point, point - box.max), vec3(0.0F)));
+}
+
 /// The shaft from a ball of radius `from` around a point to another ball, or along a unit direction with a growing radius,
 /// touches a box: exact but for the corners of the swollen box.
 bool shaft_to_ball_touches(const vec3& point, float from, const vec3& centre, float radius, const Box3& box);

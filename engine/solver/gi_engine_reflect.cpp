@@ -63,10 +63,7 @@ std::vector<Rgb> GiEngine::solve_with_new_sight(Impl& s, const SightChange& sigh
             return true;
         }
         return std::any_of(live.displaced.begin(), live.displaced.end(), [&](const auto& d) {
-            const auto touches = [&](const Box3& box) {
-                const vec3 off = glm::max(glm::max(box.min - e.centre, e.centre - box.max), vec3(0.0F));
-                return glm::length(off) <= reach + e.radius;
-            };
+            const auto touches = [&](const Box3& box) { return distance_to(box, e.centre) <= reach + e.radius; };
             return touches(d.second.before) || touches(d.second.now);
         });
     };

@@ -121,12 +121,9 @@ void GiEngine::cover_vertices(Impl& s, const RunContext& context) {
                 const std::vector<SurfacePoint>& side = places.side(back);
                 for (std::size_t v = 0; v < side.size(); ++v) {
                     const vec3& p = side[v].position;
-                    const bool near =
-                        side[v].normal != vec3(0.0F) &&
-                        (moved || std::any_of(live.owed.boxes.begin(), live.owed.boxes.end(), [&](const Box3& box) {
-                             const vec3 off = glm::max(glm::max(box.min - p, p - box.max), vec3(0.0F));
-                             return glm::length(off) <= reach;
-                         }));
+                    const bool near = side[v].normal != vec3(0.0F) &&
+                                      (moved || std::any_of(live.owed.boxes.begin(), live.owed.boxes.end(),
+                                                            [&](const Box3& box) { return distance_to(box, p) <= reach; }));
                     if (near) {
                         const auto bit = std::uint8_t(back ? 2U * VertexPlaces::kCovered : VertexPlaces::kCovered);
                         const bool covered = is_covered(*s.rays, p, side[v].normal, reach);
