@@ -110,7 +110,7 @@ void follow_the_hand(float rho, double most, double settled_most) {
 // Nearly black walls: all light is direct, and that is as good as new but for fewer rays.
 TEST(EngineUpdate, DirectLightFollowsTheHand) { follow_the_hand(0.02F, 0.1, 0.05); }
 // White ones: what they reflect follows too, sight of the box and past it included.
-TEST(EngineUpdate, LightInAWhiteRoomFollowsTheHand) { follow_the_hand(0.7F, 0.25, 0.15); }
+TEST(EngineUpdate, LightInAWhiteRoomFollowsTheHand) { follow_the_hand(0.7F, 0.2, 0.15); }
 
 TEST(EngineUpdate, SaysWhenOnlyASolutionHelps) {
     const auto refuses = [](const std::function<void(Room&)>& edit) {
