@@ -50,7 +50,7 @@ std::optional<Case> read_case(const std::string& file, const ReferenceOptions& o
         return std::nullopt;
     }
     const std::size_t picked = out.reference.probes.size();
-    drop_covered(out.scene, out.reference.probes);
+    drop_dark(out.reference.probes);
     out.dropped = picked - out.reference.probes.size();
     return out;
 }

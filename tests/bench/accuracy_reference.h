@@ -37,9 +37,8 @@ struct ReferenceOptions {
 bool get_reference(const std::filesystem::path& file, const Scene& scene, bool daylight, const ReferenceOptions& options,
                    Reference& out);
 
-/// Leaves out places that something lies on within a millimetre, or in whose very plane another surface lies: which of the
-/// two is seen there is left to rounding. Also those where none of the reference's paths found light.
-void drop_covered(const Scene& scene, std::vector<Probe>& probes);
+/// Leaves out places where none of the reference's paths found light.
+void drop_dark(std::vector<Probe>& probes);
 
 /// How far readings are from the reference. A point's relative difference is (E - R) / max(R, 5 % of the mean R).
 struct Row {

@@ -42,6 +42,7 @@ QString phase_text(const std::string& phase) {
         {"visibility", QT_TRANSLATE_NOOP("JobsPanel", "Tracing visibility")},
         {"gather", QT_TRANSLATE_NOOP("JobsPanel", "Gathering light")},
         {"layers", QT_TRANSLATE_NOOP("JobsPanel", "Painting light onto surfaces")},
+        {"audit", QT_TRANSLATE_NOOP("JobsPanel", "Measuring the error")},
     };
     for (const auto& [name, text] : kNames) {
         if (phase == name) {

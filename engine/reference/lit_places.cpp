@@ -1,0 +1,108 @@
+#include "engine/reference/lit_places.h"
+
+#include "engine/base/rng.h"
+#include "engine/raycast/ray_scene.h"
+
+#include <algorithm>
+
+namespace atrium {
+namespace {
+
+constexpr float kNear = 1e-3F; // metres: what lies closer covers a place
+
+struct Side {
+    std::uint32_t surface = 0;
+    std::uint32_t triangle = 0;
+    bool back = false;
+};
+
+/// True where the side is neither covered (everything within a millimetre) nor out of reach of all light: of 48 paths of
+/// up to 48 bounces at least one finds some.
+bool light_can_reach(const RayScene& rays, const PathTracer& tracer, const vec3& position, const vec3& normal) {
+    constexpr std::uint32_t kTries = 48;
+    vec3 t;
+    vec3 b;
+    make_frame(normal, t, b);
+    bool covered = true;
+    const PathVertex vertex{clear_of(position, normal), normal};
+    for (std::uint32_t i = 0; i < kTries && covered; ++i) {
+        const vec2 u = sobol_owen2(i, 0, 77U);
+        const float r = std::sqrt(u.x);
+        const float angle = 2.0F * kPi * u.y;
+        const vec3 d = glm::normalize(r * std::cos(angle) * t + r * std::sin(angle) * b + std::sqrt(1.0F - u.x) * normal);
+        const Hit hit = rays.nearest({vertex.origin, d});
+        covered = hit && hit.t < kNear;
+    }
+    for (std::uint32_t i = 0; i < kTries && !covered; ++i) {
+        PathSampler sampler(99, i);
+        if (tracer.finds_light(vertex, sampler, kTries)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// From both sides: of two surfaces in one plane a ray may meet either.
+bool alone_in_its_plane(const RayScene& rays, NodeId node, const vec3& p, const vec3& n) {
+    const auto in_plane = [](const Hit& hit) { return hit && std::abs(hit.t - kNear) < 0.1F * kNear; };
+    const auto own = [&](const Hit& hit) { return in_plane(hit) && rays.surfaces()[hit.surface].node == node; };
+    const Hit below = rays.nearest({p - n * kNear, n, 2.0F * kNear});
+    return own(rays.nearest({p + n * kNear, -n, 2.0F * kNear})) && (!in_plane(below) || own(below));
+}
+
+} // namespace
+
+std::vector<LitPlace> lit_places(const RayScene& rays, const PathTracer& tracer, std::size_t count, std::uint32_t seed) {
+    std::vector<Side> sides;
+    std::vector<double> cumulative;
+    double total = 0.0;
+    for (std::uint32_t s = 0; s < rays.surfaces().size(); ++s) {
+        if (classify(rays.material(s)) != MaterialKind::Diffuse) {
+            continue;
+        }
+        for (std::uint32_t t = 0; t < rays.surfaces()[s].triangles.size(); ++t) {
+            const auto p = rays.triangle(s, t);
+            const double area = 0.5 * double(glm::length(glm::cross(p[1] - p[0], p[2] - p[0])));
+            for (int side = 0; side < (rays.surfaces()[s].back_side ? 2 : 1); ++side) {
+                total += area;
+                sides.push_back({s, t, side == 1});
+                cumulative.push_back(total);
+            }
+        }
+    }
+    std::vector<LitPlace> out;
+    for (std::uint32_t i = 0; out.size() < count && i < 20 * count && total > 0.0; ++i) {
+        const double at = double(sobol_owen(i, 2, seed)) * total;
+        const auto found = std::upper_bound(cumulative.begin(), cumulative.end(), at) - cumulative.begin();
+        const Side& side = sides[std::min(std::size_t(found), sides.size() - 1)];
+        const vec2 u = sobol_owen2(i, 0, seed);
+        const float root = std::sqrt(u.x);
+        Hit hit;
+        hit.surface = side.surface;
+        hit.triangle = side.triangle;
+        hit.barycentric = {root * (1.0F - u.y), root * u.y};
+        const auto p = rays.triangle(side.surface, side.triangle);
+        const vec3 face = glm::cross(p[1] - p[0], p[2] - p[0]);
+        if (!(glm::length(face) > 0.0F)) {
+            continue;
+        }
+        hit.geometric_normal = glm::normalize(face);
+        const vec3 position = p[0] + (p[1] - p[0]) * hit.barycentric.x + (p[2] - p[0]) * hit.barycentric.y;
+        const Material& m = rays.material(side.surface);
+        if (m.alpha_mode == Material::Alpha::Mask &&
+            rays.base_color(hit.surface, hit.triangle, hit.barycentric).a < m.alpha_cutoff) {
+            continue;
+        }
+        vec3 normal = rays.shading_normal(hit);
+        normal = glm::dot(normal, hit.geometric_normal) >= 0.75F ? normal : hit.geometric_normal;
+        const float sign = side.back ? -1.0F : 1.0F;
+        const NodeId node = rays.surfaces()[side.surface].node;
+        if (alone_in_its_plane(rays, node, position, normal * sign) &&
+            light_can_reach(rays, tracer, position, hit.geometric_normal * sign)) {
+            out.push_back({dvec3(position) + rays.origin(), dvec3(normal * sign), node});
+        }
+    }
+    return out;
+}
+
+} // namespace atrium
