@@ -28,7 +28,7 @@ class Reader {
 public:
     Reader(std::span<const std::uint8_t> bytes, const std::string& name, const TiltSource& tilt)
         : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()), tilt_source_(tilt), tokens_(text_) {
-        out_.file_name = std::filesystem::path(name).filename().string();
+        out_.file_name = ies::to_utf8(std::filesystem::path(name).filename().string());
         out_.file.assign(bytes.begin(), bytes.end());
     }
 
