@@ -50,7 +50,7 @@ TEST_F(Features, ComeInAFixedOrderEachWithASentence) {
     }
     EXPECT_EQ(names,
               (std::vector<std::string>{"particles", "caustic_textures", "octree", "refraction", "glossy", "sun", "sky",
-                                        "textures", "direct_layer", "specular_view", "transmittance", "alpha_cutouts"}));
+                                        "textures", "direct_layer", "specular_view", "transmittance", "alpha_cutouts", "photometry"}));
 }
 
 TEST_F(Features, ADiffuseSceneNeedsNothing) {

@@ -3,6 +3,7 @@
 
 #include "engine/view/tone.h"
 #include "ui/document/background.h"
+#include "ui/document/scene_commands.h"
 #include "ui/tools/transform_tool.h"
 #include "ui/viewport/look_at.h"
 #include "ui/viewport/markers.h"
@@ -648,6 +649,26 @@ dvec3 ViewportWidget::placement_point() const {
     const dvec3 ahead = ray.at(std::min(camera.focus_distance(), 5.0));
     const auto floor = impl_->view.pick({ahead, down});
     return floor ? floor->point : ahead;
+}
+
+ViewportWidget::DropPlace ViewportWidget::drop_place(const QPointF& point) const {
+    constexpr double kBelowCeiling = 0.02, kBeforeWall = 0.1;
+    impl_->sync();
+    const auto hit = impl_->pick({point.x(), point.y()});
+    if (!hit) {
+        return {{}, placement_point() + dvec3(0.0, kLampHeight, 0.0)};
+    }
+    DropPlace out{hit->node, hit->point};
+    if (hit->normal.y < -0.5) {
+        out.lamp += hit->normal * kBelowCeiling;
+    } else if (hit->normal.y > 0.5) {
+        const auto ceiling = impl_->view.pick({hit->point + dvec3(0.0, 0.01, 0.0), dvec3(0.0, 1.0, 0.0)});
+        const double room = ceiling ? ceiling->point.y - hit->point.y - kBelowCeiling : kLampHeight;
+        out.lamp.y += room > 0.1 ? std::min(kLampHeight, room) : kLampHeight;
+    } else {
+        out.lamp += hit->normal * kBeforeWall;
+    }
+    return out;
 }
 
 void ViewportWidget::initializeGL() {
