@@ -89,9 +89,10 @@ LightSection::LightSection(Document& document) : Section(tr("Lamp"), document) {
     connect(photometry_, &PhotometryBox::choose, this, [this] { Q_EMIT choose_photometry(targets()); });
     connect(photometry_, &PhotometryBox::remove, this,
             [this] { apply(set_lamp_photometry(scene(), targets(), nullptr), tr("Remove photometry")); });
-    add_row(tr("Photometry"), photometry_, [this] {
+    add_row(tr("Photometry"), photometry_->buttons(), [this] {
         return !read_lamps([](const Light& l) { return l.kind != Light::Kind::Directional; }, flux_of).empty();
     });
+    add_row(QString(), photometry_);
     const auto only = [this](Light::Kind kind, auto get) {
         std::vector<double> values;
         for (const LightId id : targets()) {

@@ -49,16 +49,17 @@ PhotometryBox::PhotometryBox(QWidget* parent) : QWidget(parent) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(5);
-    auto* buttons = new QHBoxLayout;
+    buttons_ = new QWidget;
+    auto* row = new QHBoxLayout(buttons_);
+    row->setContentsMargins(0, 0, 0, 0);
     choose_ = new QPushButton(tr("Choose IES File..."));
     choose_->setObjectName(QStringLiteral("photometry_choose"));
     choose_->setToolTip(tr("Let the lamp shine as its maker measured it. An IES file can also be dropped onto a lamp"));
     remove_ = new QPushButton(tr("Remove"));
     remove_->setObjectName(QStringLiteral("photometry_remove"));
     remove_->setToolTip(tr("Shine without a file, with the same flux"));
-    buttons->addWidget(choose_, 1);
-    buttons->addWidget(remove_);
-    layout->addLayout(buttons);
+    row->addWidget(choose_, 1);
+    row->addWidget(remove_);
     words_ = new QLabel;
     words_->setObjectName(QStringLiteral("photometry_words"));
     words_->setWordWrap(true);
@@ -77,7 +78,7 @@ void PhotometryBox::set(const std::vector<Photometry>& of_lamps) {
     const bool same =
         any && std::all_of(of_lamps.begin(), of_lamps.end(), [&](const Photometry& p) { return p == of_lamps.front(); });
     remove_->setVisible(any);
-    words_->setVisible(any);
+    setVisible(any);
     diagram_->setVisible(same);
     if (same) {
         const PhotometricWeb& web = *of_lamps.front().web;

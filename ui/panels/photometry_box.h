@@ -14,11 +14,12 @@ namespace atrium::ui {
 
 class PolarDiagram;
 
-/// UI thread only.
+/// UI thread only. The buttons are a widget of their own, for a row with a label.
 class PhotometryBox : public QWidget {
     Q_OBJECT
 public:
     explicit PhotometryBox(QWidget* parent = nullptr);
+    [[nodiscard]] QWidget* buttons() const { return buttons_; }
     /// The files of all chosen lamps; none is an empty Photometry.
     void set(const std::vector<Photometry>& of_lamps);
 
@@ -27,6 +28,7 @@ Q_SIGNALS:
     void remove();
 
 private:
+    QWidget* buttons_ = nullptr;
     QPushButton* choose_ = nullptr;
     QPushButton* remove_ = nullptr;
     QLabel* words_ = nullptr;
