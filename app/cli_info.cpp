@@ -57,6 +57,9 @@ Json photometry_json(const Scene& scene) {
                        {"lumens", light.enabled ? flux_of(light) : 0.0},
                        {"dimming", light.intensity / web.peak()},
                        {"peak_candela", web.peak()},
+                       {"luminous_opening_m",
+                        {std::abs(web.data().luminous_opening.x), std::abs(web.data().luminous_opening.y),
+                         std::abs(web.data().luminous_opening.z)}},
                        {"beam_degrees", {web.beam_angle(0.0), web.beam_angle(90.0)}}});
     });
     return out;

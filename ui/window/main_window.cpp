@@ -57,7 +57,7 @@ QString dropped_file(const QMimeData* data, std::initializer_list<const char*> s
 }
 
 QString dropped_scene(const QMimeData* data) { return dropped_file(data, {".gltf", ".glb", ".atrium"}); }
-QString dropped_photometry(const QMimeData* data) { return dropped_file(data, {".ies"}); }
+QString dropped_photometry(const QMimeData* data) { return dropped_file(data, {".ies", ".ldt"}); }
 
 const std::pair<ActionId, ToolKind> kTools[] = {{ActionId::ToolSelect, ToolKind::Select},
                                                 {ActionId::ToolMove, ToolKind::Move},

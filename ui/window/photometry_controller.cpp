@@ -18,7 +18,7 @@ PhotometryController::PhotometryController(Document& document, QWidget* window)
 
 void PhotometryController::choose(const std::vector<LightId>& lights) {
     auto* dialog = new QFileDialog(window_, tr("Choose Photometric File"), Settings().photometry_folder(),
-                                   tr("Photometric files (*.ies *.IES);;All files (*)"));
+                                   tr("Photometric files (*.ies *.IES *.ldt *.LDT);;All files (*)"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setFileMode(QFileDialog::ExistingFile);
     connect(dialog, &QFileDialog::fileSelected, this, [this, lights](const QString& path) { assign(path, lights); });
@@ -71,7 +71,7 @@ std::vector<LightId> PhotometryController::lamps_of(NodeId node) const {
 
 void PhotometryController::read(const QString& path, std::function<void(const LoadedPhotometry&)> then) {
     run_in_background(
-        this, [path] { return read_ies(QFile::encodeName(path).toStdString()); },
+        this, [path] { return read_photometric_file(QFile::encodeName(path).toStdString()); },
         [this, path, then = std::move(then)](Result<LoadedPhotometry> loaded) {
             if (!loaded) {
                 Error error = loaded.error();

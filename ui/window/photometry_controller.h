@@ -1,7 +1,7 @@
 // Photometric files on their way to lamps: chosen in a dialog or dropped, read in the background, one undo entry each.
 #pragma once
 
-#include "engine/io/ies_reader.h"
+#include "engine/io/ldt_reader.h"
 #include "ui/document/document.h"
 
 #include <QObject>
