@@ -160,6 +160,15 @@ Json statistics_object(const Solved& solved) {
     out["converged"] = s.converged && !solved.stopped;
     out["residual"] = s.residual;
     out["error_estimate"] = s.error_estimate;
+    out["error_audit"] = {{"rms", s.audit.rms},
+                          {"low", s.audit.low},
+                          {"high", s.audit.high},
+                          {"bias", s.audit.bias},
+                          {"bias_error", s.audit.bias_error},
+                          {"points", s.audit.points},
+                          {"paths", s.audit.paths},
+                          {"rays", s.audit.rays},
+                          {"seconds", s.audit.seconds}};
     out["elements"] = s.elements;
     out["clusters"] = s.clusters;
     out["links"] = s.links;
