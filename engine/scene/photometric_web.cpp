@@ -41,12 +41,17 @@ dvec3 photometric_direction(PhotometryType type, double vertical, double horizon
 std::string PhotometricWeb::coverage_fault(const PhotometricData& d) {
     const float v0 = d.vertical.front(), v1 = d.vertical.back();
     const float h0 = d.horizontal.front(), h1 = d.horizontal.back();
+    constexpr float kLeast = 0.1F;
+    if (!(v1 - v0 >= kLeast)) {
+        return "the vertical angles go from " + number(v0) + " to " + number(v1) + ", which is next to nothing";
+    }
     if (d.type != PhotometryType::C) {
         if (v0 < -90.0F - kSame || v1 > 90.0F + kSame || (v0 > 0.0F && !same(v0, 0.0F))) {
             return "the vertical angles go from " + number(v0) + " to " + number(v1) +
                    "; of this type they go from -90 or 0 to 90";
         }
-        if (d.horizontal.size() < 2 || h0 < -90.0F - kSame || h1 > 90.0F + kSame || (h0 > 0.0F && !same(h0, 0.0F))) {
+        if (d.horizontal.size() < 2 || !(h1 - h0 >= kLeast) || h0 < -90.0F - kSame || h1 > 90.0F + kSame ||
+            (h0 > 0.0F && !same(h0, 0.0F))) {
             return "the horizontal angles go from " + number(h0) + " to " + number(h1) +
                    "; of this type they go from -90 or 0 to 90";
         }

@@ -221,6 +221,29 @@ TEST(Photometry, MirrorImages) {
         lit += e > 1.0 ? 1 : 0;
     }
     EXPECT_GT(lit, 50);
+    // The reference's particles find the same by chance: means over texels of the wall.
+    const dvec3 corner(4.0, 0.0, 0.0), u(0, 3, 0), v(0, 0, 4);
+    constexpr std::size_t kTexels = 4;
+    CausticReferenceSettings settings;
+    settings.particles = 1'000'000;
+    const auto caustics = reference_caustics(scene, {corner, u, v, {-1, 0, 0}}, kTexels, kTexels, settings, RunContext{});
+    ASSERT_TRUE(caustics);
+    for (std::size_t t = 0; t < kTexels * kTexels; ++t) {
+        constexpr int kSide = 50;
+        double mean = 0.0;
+        for (int i = 0; i < kSide * kSide; ++i) {
+            const double a = (double(t % kTexels) + (i % kSide + 0.5) / kSide) / kTexels;
+            const double b = (double(t / kTexels) + (i / kSide + 0.5) / kSide) / kTexels;
+            const dvec3 p = corner + a * u + b * v;
+            const dvec3 d = dvec3(-p.x, p.y, p.z) - at;
+            const double distance = glm::length(d), cosine = -d.x / distance;
+            mean += (0.9 + 0.1 * std::pow(1.0 - cosine, 5.0)) * intensity_towards(glm::conjugate(turn) * (d / distance)) *
+                    cosine / (distance * distance) / (kSide * kSide);
+        }
+        const double error = caustics->standard_error[t];
+        EXPECT_LT(error, 0.02 * mean + 0.1) << t;
+        EXPECT_NEAR(luminance(caustics->irradiance[t]), mean, 4.0 * error + 1e-3 * mean) << t;
+    }
 }
 
 /// Flux through a rectangle in front of the lamp, by midpoints.

@@ -243,6 +243,7 @@ TEST(IesReader, DamagedFilesSayWhere) {
         {with("1 1 2 0 0 0", "1 4 2 0 0 0"), "line 3", "the type of photometry"},
         {with("0 45 90", "0 90 45"), "line 5", "must ascend"},
         {with("0 45 90", "0 45 190"), "line 6", "between 0 and 180"},
+        {file_of("0 1e-38", "0", "1 1"), "line 6", "next to nothing"},
         {file_of("0 90", "0 45", "1 1 1 1"), "line 6", "horizontal angles go from 0 to 45"},
         {file_of("0 90", "0 90", "1 1 1 1", 4), "line 3", "type"},
         {file_of("10 90", "0 90", "1 1 1 1", 2), "line 6", "from 10 to 90"},

@@ -9,6 +9,7 @@
 #include "window_fixture.h"
 
 #include <QDragEnterEvent>
+#include <QFileDialog>
 #include <QLabel>
 #include <QMessageBox>
 #include <QMimeData>
@@ -113,6 +114,21 @@ TEST_F(PhotometryTest, DroppedOntoALampAndBesideIt) {
     trigger(ActionId::Undo);
     trigger(ActionId::Undo);
     EXPECT_TRUE(scene() == sample_room());
+}
+
+TEST_F(PhotometryTest, AddedFromTheMenuEvenWithoutAScene) {
+    trigger(ActionId::AddLuminaire);
+    auto* files = dialog<QFileDialog>();
+    ASSERT_NE(files, nullptr);
+    files->selectFile(kWasher);
+    Q_EMIT files->fileSelected(kWasher);
+    files->reject();
+    wait_for_entries(1);
+    EXPECT_TRUE(window->viewport().isVisible()) << "the start page went";
+    const Light* light = scene().lights.find(node(window->document().selection()->active()).light);
+    ASSERT_NE(light, nullptr);
+    EXPECT_TRUE(light->photometry);
+    EXPECT_NEAR(scene().world_matrix(window->document().selection()->active())[3].y, 2.2, 1e-9);
 }
 
 TEST_F(PhotometryTest, AFileThatCannotBeReadChangesNothing) {

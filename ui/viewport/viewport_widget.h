@@ -54,6 +54,7 @@ public:
         dvec3 lamp{0.0}; ///< where a lamp would hang: below a ceiling, before a wall, above a floor; world metres
     };
     [[nodiscard]] DropPlace drop_place(const QPointF& point) const;
+    [[nodiscard]] dvec3 lamp_place() const; ///< above placement_point(), below the ceiling, world metres
 
 Q_SIGNALS:
     void tool_changed(atrium::ui::ToolKind tool);

@@ -262,7 +262,7 @@ void MainWindow::make_menus() {
                        ActionId::Commands});
     fill(tr("&Add"), {ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder, ActionId::AddCone,
                       ActionId::AddDisc, gap, ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight,
-                      ActionId::AddSun, ActionId::AddDaylight, gap, ActionId::AddCamera});
+                      ActionId::AddLuminaire, ActionId::AddSun, ActionId::AddDaylight, gap, ActionId::AddCamera});
     auto* view = fill(tr("&View"),
                       {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap, ActionId::ExposureUp,
                        ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::ShowDirect, ActionId::ShowDiffuse,
@@ -405,6 +405,7 @@ void MainWindow::connect_edit() {
             }
         });
     }
+    on(ActionId::AddLuminaire, [this] { photometry_->choose_and_add([this] { return lamp_place(); }); });
     connect(photometry_, &PhotometryController::message, this, &MainWindow::say);
     connect(properties_, &PropertiesPanel::choose_photometry, photometry_, &PhotometryController::choose);
     on(ActionId::AddCamera, [this] {
@@ -616,14 +617,18 @@ void MainWindow::dropEvent(QDropEvent* event) {
     }
 }
 
-void MainWindow::drop_photometry(const QString& path, const QPointF& position) {
+dvec3 MainWindow::lamp_place() {
     started_ = true;
     update_page();
-    const QPointF point = viewport_->mapFrom(this, position);
+    return document_.scene().nodes.empty() ? dvec3(0.0, kLampHeight, 0.0) : viewport_->lamp_place();
+}
+
+void MainWindow::drop_photometry(const QString& path, const QPointF& position) {
     if (document_.scene().nodes.empty()) {
-        photometry_->add(path, dvec3(0.0, kLampHeight, 0.0));
+        photometry_->add(path, lamp_place());
         return;
     }
+    const QPointF point = viewport_->mapFrom(this, position);
     if (!viewport_->rect().contains(point.toPoint())) {
         // Onto a panel: meant for what is selected.
         const std::vector<LightId> lamps = photometry_->lamps_of(document_.selection()->active());

@@ -68,6 +68,7 @@ private:
     void update_page();
     void update_recent();
     void export_picture();
+    dvec3 lamp_place(); ///< where a new lamp hangs; leaves the start page
     void drop_photometry(const QString& path, const QPointF& position);
     void say(const QString& text);
     void on(ActionId id, std::function<void()> slot);

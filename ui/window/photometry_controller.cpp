@@ -17,11 +17,19 @@ PhotometryController::PhotometryController(Document& document, QWidget* window)
     : QObject(window), document_(document), window_(window) {}
 
 void PhotometryController::choose(const std::vector<LightId>& lights) {
-    auto* dialog = new QFileDialog(window_, tr("Choose Photometric File"), Settings().photometry_folder(),
+    ask(tr("Choose Photometric File"), [this, lights](const QString& path) { assign(path, lights); });
+}
+
+void PhotometryController::choose_and_add(const std::function<dvec3()>& at) {
+    ask(tr("Add Luminaire"), [this, at](const QString& path) { add(path, at()); });
+}
+
+void PhotometryController::ask(const QString& title, std::function<void(const QString& path)> then) {
+    auto* dialog = new QFileDialog(window_, title, Settings().photometry_folder(),
                                    tr("Photometric files (*.ies *.IES *.ldt *.LDT);;All files (*)"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setFileMode(QFileDialog::ExistingFile);
-    connect(dialog, &QFileDialog::fileSelected, this, [this, lights](const QString& path) { assign(path, lights); });
+    connect(dialog, &QFileDialog::fileSelected, this, std::move(then));
     dialog->open();
 }
 
