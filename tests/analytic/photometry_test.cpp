@@ -225,7 +225,7 @@ TEST(Photometry, MirrorImages) {
     const dvec3 corner(4.0, 0.0, 0.0), u(0, 3, 0), v(0, 0, 4);
     constexpr std::size_t kTexels = 4;
     CausticReferenceSettings settings;
-    settings.particles = 1'000'000;
+    settings.particles = 4'000'000;
     const auto caustics = reference_caustics(scene, {corner, u, v, {-1, 0, 0}}, kTexels, kTexels, settings, RunContext{});
     ASSERT_TRUE(caustics);
     for (std::size_t t = 0; t < kTexels * kTexels; ++t) {
