@@ -5,6 +5,7 @@
 #include "ui/document/sample_room.h"
 #include "ui/panels/photometry_box.h"
 #include "ui/panels/polar_diagram.h"
+#include "ui/viewport/markers.h"
 #include "ui/window/photometry_controller.h"
 #include "window_fixture.h"
 
@@ -174,6 +175,44 @@ TEST_F(PhotometryTest, TheDiagramShowsTheLobe) {
         }
     }
     EXPECT_GT(right, left + 100) << left;
+}
+
+// Seen along -z, +y up; the lamp hangs with its C90 towards the eye's left.
+TEST(PhotometryMarker, TheSelectedLampShowsItsLight) {
+    Scene scene;
+    Light light;
+    set_photometry(light, read_ies(kWasher.toStdString()).value().web);
+    Node lamp;
+    lamp.light = scene.lights.insert(light);
+    // -z down, +y (C90) to -x.
+    lamp.transform.rotation = glm::angleAxis(kPiD / 2, dvec3(0, 1, 0)) * glm::angleAxis(-kPiD / 2, dvec3(1, 0, 0));
+    const NodeId id = scene.nodes.insert(lamp);
+    scene.roots.push_back(id);
+    CameraController camera;
+    camera.set_viewport(800, 600);
+    ViewCamera view;
+    view.to_world[3] = dvec4(0, 0, 4, 1);
+    camera.set_camera(view);
+    const auto markers = find_markers(scene);
+    ASSERT_EQ(markers.size(), 1U);
+    const dvec2 middle = *camera.project(markers[0].position);
+    const auto reach = [&](bool selected) {
+        OverlayBatch batch;
+        draw_markers(batch, markers, camera, [&](NodeId) { return selected; }, {});
+        vec2 low(1e9F), high(-1e9F);
+        for (const OverlayVertex& v : batch.vertices()) {
+            low = glm::min(low, v.position - vec2(middle));
+            high = glm::max(high, v.position - vec2(middle));
+        }
+        return std::pair(low, high);
+    };
+    const auto [low, high] = reach(true);
+    // The lobe points down and to C90 at 37 degrees, 110 pixels long.
+    EXPECT_NEAR(double(high.y), 110 * std::cos(radians_from_degrees(36)), 10.0);
+    EXPECT_NEAR(double(low.x), -110 * std::sin(radians_from_degrees(38)), 10.0);
+    EXPECT_LT(double(high.x), 20.0);
+    EXPECT_GT(double(low.y), -20.0) << "nothing upwards";
+    EXPECT_LT(double(reach(false).second.y), 45.0) << "a small cone while it is not selected";
 }
 
 TEST_F(PhotometryTest, SavedAndOpenedAgain) {
