@@ -33,7 +33,9 @@ QString beam_text(const PhotometricWeb& web) {
 QString photometry_summary(const PhotometricWeb& web) {
     QStringList parts;
     if (!web.data().manufacturer.empty()) {
-        parts << QString::fromStdString(web.data().manufacturer).simplified();
+        const QString maker = QString::fromStdString(web.data().manufacturer).simplified();
+        constexpr qsizetype kMost = 40;
+        parts << (maker.size() > kMost ? maker.left(kMost).trimmed() + QChar(0x2026) : maker);
     }
     parts << PhotometryBox::tr("%1 lm").arg(QLocale().toString(web.flux(), 'f', web.flux() < 100.0 ? 1 : 0));
     if (const QString beam = beam_text(web); !beam.isEmpty()) {

@@ -22,10 +22,10 @@ double share_at(const PhotometricWeb& web, double plane, double degrees) {
     return double(web.relative(vec3(dvec3(std::sin(v) * std::cos(h), std::sin(v) * std::sin(h), -std::cos(v)))));
 }
 
-/// A round number of candela for the outer ring, at least the peak.
+/// A round number of candela for the outer ring, at least the greatest of what is drawn.
 double ring_end(double peak) {
     const double magnitude = std::pow(10.0, std::floor(std::log10(peak)));
-    for (const double factor : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+    for (const double factor : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
         if (peak <= factor * magnitude) {
             return factor * magnitude;
         }
@@ -58,7 +58,7 @@ void PolarDiagram::paintEvent(QPaintEvent* /*event*/) {
     }
     const PhotometricWeb& web = *photometry_.web;
     double above = 0.0, below = 0.0;
-    for (int k = 0; k < 90; ++k) {
+    for (int k = 0; k <= 90; ++k) {
         for (const double plane : {0.0, 90.0, 180.0, 270.0}) {
             below = std::max(below, share_at(web, plane, k));
             above = std::max(above, share_at(web, plane, 180.0 - k));
@@ -94,7 +94,9 @@ void PolarDiagram::paintEvent(QPaintEvent* /*event*/) {
     QColor text = palette().color(QPalette::WindowText);
     text.setAlpha(170);
     painter.setPen(QPen(grid, 1.0));
-    const double end = ring_end(double(web.peak()));
+    // The greatest intensity may lie between the planes that are drawn.
+    const double most = std::max(above, below) > 0.0 ? std::max(above, below) : 1.0;
+    const double end = ring_end(most * double(web.peak()));
     const int start = down ? (up ? 0 : 180) : 0; // Qt counts from 3 o'clock, counter-clockwise, in sixteenths
     const int span = up && down ? 360 : 180;
     for (int ring = 1; ring <= 4; ++ring) {
