@@ -103,8 +103,7 @@ void EditController::copy_material() {
         const std::vector<MaterialId>& materials = scene.nodes.find(place.node)->materials;
         if (place.part < materials.size() && scene.materials.contains(materials[place.part])) {
             put(Kind::Material, material_scene(scene, materials[place.part]));
-            Q_EMIT message(tr("%1 copied.").arg(
-                QString::fromStdString(scene.materials.find(materials[place.part])->name)));
+            Q_EMIT message(tr("%1 copied.").arg(QString::fromStdString(scene.materials.find(materials[place.part])->name)));
             return;
         }
     }
@@ -134,8 +133,8 @@ void EditController::assign(const LibraryItem& material) {
     }
     if (apply(assign_material(document_.scene(), places, *material.scene, material_in(*material.scene)),
               tr("Set material %1").arg(material.name))) {
-        Q_EMIT message(tr("%1 given to %n object(s).", nullptr, int(document_.selection()->nodes().size()))
-                           .arg(material.name));
+        Q_EMIT message(
+            tr("%1 given to %n object(s).", nullptr, int(document_.selection()->nodes().size())).arg(material.name));
     }
 }
 
@@ -144,8 +143,8 @@ void EditController::toggle_lock() {
         return;
     }
     const std::vector<NodeId>& nodes = document_.selection()->nodes();
-    const bool lock = std::any_of(nodes.begin(), nodes.end(),
-                                  [this](NodeId id) { return !document_.scene().nodes.find(id)->locked; });
+    const bool lock =
+        std::any_of(nodes.begin(), nodes.end(), [this](NodeId id) { return !document_.scene().nodes.find(id)->locked; });
     apply(set_locked(document_.scene(), nodes, lock), lock ? tr("Lock") : tr("Unlock"));
 }
 

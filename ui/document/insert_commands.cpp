@@ -117,8 +117,8 @@ Command insert_scene(const Scene& scene, const Scene& other, const dmat4& placem
     std::vector<NodeId> roots;
     for (const NodeId id : other.roots) {
         const Node* root = other.nodes.find(id);
-        const NodeId made = copier.node(id, {}, decompose(placement * root->transform.matrix()),
-                                        free_name(builder.scene(), root->name));
+        const NodeId made =
+            copier.node(id, {}, decompose(placement * root->transform.matrix()), free_name(builder.scene(), root->name));
         copier.below(id, made);
         roots.push_back(made);
     }

@@ -259,9 +259,8 @@ Result<std::vector<LibraryItem>> parse_library(const QByteArray& json) {
     }
     std::vector<LibraryItem> out;
     std::map<QString, Material> materials;
-    const std::pair<const char*, LibrarySection> sections[] = {{"materials", LibrarySection::Materials},
-                                                               {"shapes", LibrarySection::Shapes},
-                                                               {"lamps", LibrarySection::Lamps}};
+    const std::pair<const char*, LibrarySection> sections[] = {
+        {"materials", LibrarySection::Materials}, {"shapes", LibrarySection::Shapes}, {"lamps", LibrarySection::Lamps}};
     for (const auto& [list, section] : sections) {
         const QJsonArray entries = root.value(QLatin1StringView(list)).toArray();
         for (const auto& value : entries) {
@@ -271,8 +270,8 @@ Result<std::vector<LibraryItem>> parse_library(const QByteArray& json) {
             item.key = entry.value(QLatin1StringView("key")).toString();
             const QString source = entry.value(QLatin1StringView("name")).toString();
             item.name = QCoreApplication::translate("Library", source.toUtf8().constData());
-            item.tip = QCoreApplication::translate(
-                "Library", entry.value(QLatin1StringView("tip")).toString().toUtf8().constData());
+            item.tip = QCoreApplication::translate("Library",
+                                                   entry.value(QLatin1StringView("tip")).toString().toUtf8().constData());
             try {
                 if (item.key.isEmpty() || source.isEmpty()) {
                     throw BadEntry{"an entry needs a key and a name"};

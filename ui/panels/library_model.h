@@ -59,7 +59,8 @@ private:
     QStringList words_;
 };
 
-/// Reads a model for the library: its shapes and lights under one root that has the file's name, without cameras. Any thread.
+/// Reads a model for the library: its shapes and lights under one root that has the file's name, without cameras. Any
+/// thread.
 Result<Scene> read_furniture(const QString& path);
 
 } // namespace atrium::ui

@@ -79,9 +79,8 @@ QImage material_thumbnail(const Material& material, int size) {
             const double b = glm::dot(eye, ray);
             const double c = glm::dot(eye, eye) - 1.0;
             const double d = b * b - c;
-            image.setPixel(x, y,
-                           display(d > 0 ? ball(material, eye, ray, eye + ray * (-b - std::sqrt(d)))
-                                         : surroundings(eye, ray)));
+            image.setPixel(
+                x, y, display(d > 0 ? ball(material, eye, ray, eye + ray * (-b - std::sqrt(d))) : surroundings(eye, ray)));
         }
     }
     return smoothed(image, size);
@@ -99,8 +98,7 @@ QImage object_thumbnail(const Scene& scene, int size) {
     const dvec3 right = glm::normalize(glm::cross(dvec3(0, 1, 0), towards));
     const dvec3 up = glm::cross(towards, right);
     const dvec3 half = 0.5 * (bounds.max - bounds.min);
-    const double reach =
-        std::max({glm::dot(half, glm::abs(right)), glm::dot(half, glm::abs(up)), 1e-6}) * 1.08;
+    const double reach = std::max({glm::dot(half, glm::abs(right)), glm::dot(half, glm::abs(up)), 1e-6}) * 1.08;
     std::vector<double> depth(std::size_t(side) * side, -std::numeric_limits<double>::infinity());
     for (const NodeId id : scene.in_tree_order()) {
         const Node* node = scene.nodes.find(id);

@@ -60,8 +60,7 @@ bool PlaceTool::move(const Pointer& pointer) {
     }
     const Snapping& snapping = host_.snapping();
     const bool snap = snapping.on != pointer.modifiers.testFlag(Qt::ControlModifier);
-    const auto placement =
-        placement_under(host_.view_scene(), ray, item_->mount, bounds_, own_, snap ? snapping.grid : 0.0);
+    const auto placement = placement_under(host_.view_scene(), ray, item_->mount, bounds_, own_, snap ? snapping.grid : 0.0);
     if (!placement) {
         return gesture_ != nullptr; // it stays where it was last
     }
@@ -78,9 +77,9 @@ bool PlaceTool::move(const Pointer& pointer) {
     }
     const dvec3 at((*placement)[3]);
     const QLocale locale;
-    host_.show_message(tr("%1 at x %2 m, y %3 m, z %4 m")
-                           .arg(item_->name, locale.toString(at.x, 'f', 2), locale.toString(at.y, 'f', 2),
-                                locale.toString(at.z, 'f', 2)));
+    host_.show_message(
+        tr("%1 at x %2 m, y %3 m, z %4 m")
+            .arg(item_->name, locale.toString(at.x, 'f', 2), locale.toString(at.y, 'f', 2), locale.toString(at.z, 'f', 2)));
     return true;
 }
 

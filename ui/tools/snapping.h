@@ -12,11 +12,11 @@ namespace atrium::ui {
 /// The user's choice; Ctrl during a drag turns `on` round.
 struct Snapping {
     bool on = false;
-    double grid = 0.1;             ///< metres
-    double angle = kPiD / 12;      ///< radians
-    double factor = 0.1;           ///< of a scale
-    bool on_surfaces = false;      ///< an object that is dragged by itself goes on what is under the cursor
-    bool turn_to_surface = false;  ///< and turns with it
+    double grid = 0.1;            ///< metres
+    double angle = kPiD / 12;     ///< radians
+    double factor = 0.1;          ///< of a scale
+    bool on_surfaces = false;     ///< an object that is dragged by itself goes on what is under the cursor
+    bool turn_to_surface = false; ///< and turns with it
     friend bool operator==(const Snapping&, const Snapping&) = default;
 };
 

@@ -7,9 +7,9 @@
 namespace atrium::ui {
 namespace {
 
-constexpr double kFarGround = 50.0;  ///< metres
-constexpr double kMostSunk = 0.3;    ///< metres that an object may stick in the floor and is lifted out
-constexpr int kUndersideLines = 12;  ///< in each direction
+constexpr double kFarGround = 50.0; ///< metres
+constexpr double kMostSunk = 0.3;   ///< metres that an object may stick in the floor and is lifted out
+constexpr int kUndersideLines = 12; ///< in each direction
 constexpr std::size_t kMostVertices = 600;
 const dvec3 kUp(0, 1, 0);
 

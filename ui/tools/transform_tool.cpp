@@ -190,8 +190,8 @@ void TransformTool::remember_bounds(Drag& drag) const {
 /// Puts what is dragged on the surface under the cursor; false where there is none.
 bool TransformTool::slide(const Pointer& pointer) {
     const PickRules rules{&drag_->own, false};
-    const auto hit = host_.view_scene().pick(host_.camera().ray(pointer.position),
-                                             std::numeric_limits<double>::infinity(), rules);
+    const auto hit =
+        host_.view_scene().pick(host_.camera().ray(pointer.position), std::numeric_limits<double>::infinity(), rules);
     if (!hit || drag_->corners.empty()) {
         return false;
     }

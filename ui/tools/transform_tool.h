@@ -51,13 +51,13 @@ protected:
         dvec3 last_raw{0.0};
         dvec3 amount{0.0}; ///< before snapping: metres per gizmo axis, radians in x, or factors - 1
         bool has_raw = false;
-        bool body = false;                ///< dragged by the object itself, not by a handle
-        DBox3 bounds;                     ///< of all targets in the world when the drag began; may be empty
-        std::unordered_set<NodeId> own;   ///< targets and all below them
-        std::vector<DBox3> others;        ///< bounds of everything else that is shown
-        std::vector<dvec3> corners;       ///< of the bounds in the first target's own axes, world scale, about its origin
-        std::optional<dvec3> slide_from;  ///< normal of the surface that the slide began on
-        dvec3 slide_offset{0.0};          ///< along that surface, from under the cursor to where the object stands
+        bool body = false;               ///< dragged by the object itself, not by a handle
+        DBox3 bounds;                    ///< of all targets in the world when the drag began; may be empty
+        std::unordered_set<NodeId> own;  ///< targets and all below them
+        std::vector<DBox3> others;       ///< bounds of everything else that is shown
+        std::vector<dvec3> corners;      ///< of the bounds in the first target's own axes, world scale, about its origin
+        std::optional<dvec3> slide_from; ///< normal of the surface that the slide began on
+        dvec3 slide_offset{0.0};         ///< along that surface, from under the cursor to where the object stands
     };
 
     /// Unsnapped amount for a mouse position, measured from the start; none where the geometry gives no answer.

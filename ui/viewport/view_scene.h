@@ -69,8 +69,7 @@ public:
     [[nodiscard]] const std::vector<ViewItem>& items() const { return items_; }
     /// Nearest visible surface; back sides of single-sided materials are not drawn and not hit. Blended and cut-out parts
     /// count as solid.
-    [[nodiscard]] std::optional<PickHit> pick(const Ray& ray,
-                                              double max_distance = std::numeric_limits<double>::infinity(),
+    [[nodiscard]] std::optional<PickHit> pick(const Ray& ray, double max_distance = std::numeric_limits<double>::infinity(),
                                               const PickRules& rules = {}) const;
 
 private:

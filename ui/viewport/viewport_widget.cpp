@@ -766,11 +766,12 @@ void ViewportWidget::drop_to_surface() {
         most = std::abs(fall) > std::abs(most) ? fall : most;
     }
     if (edits.empty()) {
-        Q_EMIT message(without == 0 ? tr("Select an object first.") : tr("Nothing lies below the selection, or it is locked."));
+        Q_EMIT message(without == 0 ? tr("Select an object first.")
+                                    : tr("Nothing lies below the selection, or it is locked."));
         return;
     }
     const auto done = doc.apply(as_one(std::move(edits)), tr("Drop to surface"));
-    Q_EMIT message(!done               ? QString::fromStdString(done.error().message())
+    Q_EMIT message(!done                   ? QString::fromStdString(done.error().message())
                    : std::abs(most) < 5e-4 ? tr("The selection rests already.")
                                            : tr("Lowered by %1 m").arg(QLocale().toString(most, 'f', 3)));
 }

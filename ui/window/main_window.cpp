@@ -233,44 +233,60 @@ void MainWindow::make_menus() {
     };
     const ActionId gap = ActionId::Count;
     auto* edit = fill(tr("&Edit"), {ActionId::Undo,
-                       ActionId::Redo,
-                       gap,
-                       ActionId::Cut,
-                       ActionId::Copy,
-                       ActionId::Paste,
-                       ActionId::PasteInPlace,
-                       ActionId::CopyMaterial,
-                       ActionId::PasteMaterial,
-                       gap,
-                       ActionId::Duplicate,
-                       ActionId::Delete,
-                       ActionId::Rename,
-                       ActionId::Group,
-                       gap,
-                       ActionId::Hide,
-                       ActionId::ShowAll,
-                       ActionId::Isolate,
-                       ActionId::Lock,
-                       gap,
-                       ActionId::SelectAll,
-                       ActionId::SelectNone,
-                       gap,
-                       ActionId::ToolSelect,
-                       ActionId::ToolMove,
-                       ActionId::ToolRotate,
-                       ActionId::ToolScale,
-                       ActionId::DropToSurface,
-                       gap,
-                       ActionId::Commands});
+                                    ActionId::Redo,
+                                    gap,
+                                    ActionId::Cut,
+                                    ActionId::Copy,
+                                    ActionId::Paste,
+                                    ActionId::PasteInPlace,
+                                    ActionId::CopyMaterial,
+                                    ActionId::PasteMaterial,
+                                    gap,
+                                    ActionId::Duplicate,
+                                    ActionId::Delete,
+                                    ActionId::Rename,
+                                    ActionId::Group,
+                                    gap,
+                                    ActionId::Hide,
+                                    ActionId::ShowAll,
+                                    ActionId::Isolate,
+                                    ActionId::Lock,
+                                    gap,
+                                    ActionId::SelectAll,
+                                    ActionId::SelectNone,
+                                    gap,
+                                    ActionId::ToolSelect,
+                                    ActionId::ToolMove,
+                                    ActionId::ToolRotate,
+                                    ActionId::ToolScale,
+                                    ActionId::DropToSurface,
+                                    gap,
+                                    ActionId::Commands});
     fill_snapping_menu(edit->addMenu(tr("Sna&pping")));
-    fill(tr("&Add"), {ActionId::Library, gap, ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder, ActionId::AddCone,
-                      ActionId::AddDisc, gap, ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight,
-                      ActionId::AddSun, ActionId::AddDaylight, gap, ActionId::AddCamera});
-    auto* view = fill(tr("&View"),
-                      {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, ActionId::OrbitSelection, gap, ActionId::ExposureUp,
-                       ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::ShowDirect, ActionId::ShowDiffuse,
-                       ActionId::ShowCaustic, gap, ActionId::Wireframe, ActionId::CutWalls, gap, ActionId::InspectCaustics,
-                       ActionId::CausticBoxes, ActionId::TexelGrid, ActionId::ParticleLandings});
+    fill(tr("&Add"),
+         {ActionId::Library, gap, ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder,
+          ActionId::AddCone, ActionId::AddDisc, gap, ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight,
+          ActionId::AddSun, ActionId::AddDaylight, gap, ActionId::AddCamera});
+    auto* view = fill(tr("&View"), {ActionId::FrameSelection,
+                                    ActionId::FrameAll,
+                                    ActionId::WalkMode,
+                                    ActionId::OrbitSelection,
+                                    gap,
+                                    ActionId::ExposureUp,
+                                    ActionId::ExposureDown,
+                                    ActionId::ExposureReset,
+                                    gap,
+                                    ActionId::ShowDirect,
+                                    ActionId::ShowDiffuse,
+                                    ActionId::ShowCaustic,
+                                    gap,
+                                    ActionId::Wireframe,
+                                    ActionId::CutWalls,
+                                    gap,
+                                    ActionId::InspectCaustics,
+                                    ActionId::CausticBoxes,
+                                    ActionId::TexelGrid,
+                                    ActionId::ParticleLandings});
     auto* ways = view->addMenu(tr("Ca&ustics Shown As"));
     for (const auto& [id, way] : kWays) {
         ways->addAction(a[id]);
@@ -347,8 +363,8 @@ void MainWindow::make_status_bar() {
     snap_badge_->setObjectName(QStringLiteral("snap_badge"));
     snap_badge_->setAutoRaise(true);
     snap_badge_->hide();
-    for (QWidget* widget :
-         std::initializer_list<QWidget*>{busy_text_, busy_bar_, busy_cancel_, snap_badge_, problems_badge_, new LightBadge(*engine_)}) {
+    for (QWidget* widget : std::initializer_list<QWidget*>{busy_text_, busy_bar_, busy_cancel_, snap_badge_, problems_badge_,
+                                                           new LightBadge(*engine_)}) {
         statusBar()->addPermanentWidget(widget);
     }
     for (QWidget* widget : std::initializer_list<QWidget*>{busy_text_, busy_bar_, busy_cancel_}) {
@@ -544,8 +560,9 @@ void MainWindow::update_actions() {
     name(ActionId::Redo, undo->canRedo(), tr("&Redo"), undo->redoText());
     const bool selected = !document_.selection()->nodes().empty();
     const bool walking = viewport_->walk_mode();
-    for (const ActionId id : {ActionId::Cut, ActionId::Copy, ActionId::CopyMaterial, ActionId::PasteMaterial, ActionId::Lock,
-                              ActionId::DropToSurface, ActionId::Duplicate, ActionId::Delete, ActionId::Rename, ActionId::Group}) {
+    for (const ActionId id :
+         {ActionId::Cut, ActionId::Copy, ActionId::CopyMaterial, ActionId::PasteMaterial, ActionId::Lock,
+          ActionId::DropToSurface, ActionId::Duplicate, ActionId::Delete, ActionId::Rename, ActionId::Group}) {
         (*actions_)[id]->setEnabled(selected);
     }
     (*actions_)[ActionId::Hide]->setEnabled(selected && !walking);
