@@ -30,6 +30,12 @@ QImage picture_of(const LibraryItem& item) {
         const Material* material = item.scene->materials.find(material_in(*item.scene));
         return material_thumbnail(material == nullptr ? default_material() : *material, kPixels);
     }
+    if (item.mount == Mount::Ceiling) { // as it hangs
+        Scene hanging;
+        const Command command = insert_scene(hanging, *item.scene, glm::mat4_cast(turn_to_face({0, -1, 0})));
+        (void)atrium::apply(hanging, command.edit);
+        return object_thumbnail(hanging, kPixels);
+    }
     return object_thumbnail(*item.scene, kPixels);
 }
 

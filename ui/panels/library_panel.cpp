@@ -2,10 +2,13 @@
 
 #include "ui/panels/library_model.h"
 
+#include <QDrag>
+#include <QIcon>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListView>
+#include <QMimeData>
 #include <QPushButton>
 #include <QTabBar>
 #include <QVBoxLayout>
@@ -13,7 +16,25 @@
 namespace atrium::ui {
 namespace {
 
-constexpr QSize kCell(104, 116);
+constexpr QSize kCell(104, 128);
+constexpr int kDragPicture = 28; ///< points; the object itself is seen in the view
+
+/// A list whose drags show a small picture beside the cursor: a large one would hide the place.
+class LibraryView : public QListView {
+protected:
+    void startDrag(Qt::DropActions /*actions*/) override {
+        const QModelIndex index = currentIndex();
+        QMimeData* data = index.isValid() ? model()->mimeData({index}) : nullptr;
+        if (data == nullptr) {
+            return;
+        }
+        auto* drag = new QDrag(this); // Qt deletes it when it has ended
+        drag->setMimeData(data);
+        drag->setPixmap(index.data(Qt::DecorationRole).value<QIcon>().pixmap(kDragPicture, kDragPicture));
+        drag->setHotSpot({-12, -12});
+        drag->exec(Qt::CopyAction);
+    }
+};
 
 } // namespace
 
@@ -44,7 +65,7 @@ LibraryPanel::LibraryPanel(QWidget* parent) : QWidget(parent) {
 
     model_ = new LibraryModel(this);
     filter_ = new LibraryFilter(*model_, this);
-    view_ = new QListView;
+    view_ = new LibraryView;
     view_->setObjectName(QStringLiteral("library_view"));
     view_->setAccessibleName(tr("Library"));
     view_->setModel(filter_);
