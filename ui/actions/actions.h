@@ -48,6 +48,7 @@ enum class ActionId : std::uint8_t {
     AddSun,
     AddDaylight,
     AddAreaLight,
+    AddLuminaire,
     AddCamera,
     ToolSelect,
     ToolMove,

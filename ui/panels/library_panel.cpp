@@ -24,12 +24,12 @@ class LibraryView : public QListView {
 protected:
     void startDrag(Qt::DropActions /*actions*/) override {
         const QModelIndex index = currentIndex();
-        QMimeData* data = index.isValid() ? model()->mimeData({index}) : nullptr;
-        if (data == nullptr) {
+        QMimeData* mime = index.isValid() ? model()->mimeData({index}) : nullptr;
+        if (mime == nullptr) {
             return;
         }
         auto* drag = new QDrag(this); // Qt deletes it when it has ended
-        drag->setMimeData(data);
+        drag->setMimeData(mime);
         drag->setPixmap(index.data(Qt::DecorationRole).value<QIcon>().pixmap(kDragPicture, kDragPicture));
         drag->setHotSpot({-12, -12});
         drag->exec(Qt::CopyAction);

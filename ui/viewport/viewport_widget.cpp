@@ -35,6 +35,10 @@ constexpr int kProbeAfterMs = 150; ///< of rest; then a face at a time
 constexpr int kWalkTickMs = 16;
 constexpr double kPinchSteps = 6.0; ///< dolly steps for a pinch to twice the size
 
+// Of lamps that are put there, metres.
+constexpr double kBelowCeiling = 0.02;
+constexpr double kBeforeWall = 0.1;
+
 /// A new mean is taken over at rest when it differs by more than this factor: somebody switched the lights.
 constexpr double kMeanJump = 8.0;
 
@@ -138,6 +142,13 @@ struct ViewportWidget::Impl : ToolHost {
         });
         QObject::connect(doc.selection(), &Selection::changed, &widget, [this] { selection_changed(); });
         QObject::connect(&engine, &EngineLink::solution_changed, &widget, [this] { take_solution(); });
+    }
+
+    /// Where a lamp hangs over a point on a floor: no higher than a ceiling lets it.
+    [[nodiscard]] dvec3 lamp_above(const dvec3& floor) const {
+        const auto ceiling = view.pick({floor + dvec3(0.0, 0.01, 0.0), dvec3(0.0, 1.0, 0.0)});
+        const double room = ceiling ? ceiling->point.y - floor.y - kBelowCeiling : kLampHeight;
+        return floor + dvec3(0.0, room > 0.1 ? std::min(kLampHeight, room) : kLampHeight, 0.0);
     }
 
     // ---- ToolHost ----
@@ -824,6 +835,25 @@ void ViewportWidget::dropEvent(QDropEvent* event) {
     event->setAccepted(impl_->answer_drag(event, true));
     impl_->set_hovered({});
     setFocus(Qt::OtherFocusReason);
+}
+
+dvec3 ViewportWidget::lamp_place() const { return impl_->lamp_above(placement_point()); }
+
+ViewportWidget::DropPlace ViewportWidget::drop_place(const QPointF& point) const {
+    impl_->sync();
+    const auto hit = impl_->pick({point.x(), point.y()});
+    if (!hit) {
+        return {{}, lamp_place()};
+    }
+    DropPlace out{hit->node, hit->point};
+    if (hit->normal.y < -0.5) {
+        out.lamp += hit->normal * kBelowCeiling;
+    } else if (hit->normal.y > 0.5) {
+        out.lamp = impl_->lamp_above(hit->point);
+    } else {
+        out.lamp += hit->normal * kBeforeWall;
+    }
+    return out;
 }
 
 void ViewportWidget::initializeGL() {

@@ -61,6 +61,14 @@ public:
     void set_isolated(bool on);
     void set_orbit_selection(bool on); ///< turn about what is selected instead of about the point under the cursor
 
+    /// What lies under a point of the widget, for something that is dropped there.
+    struct DropPlace {
+        NodeId node;     ///< the object or lamp there; none beside everything
+        dvec3 lamp{0.0}; ///< where a lamp would hang: below a ceiling, before a wall, above a floor; world metres
+    };
+    [[nodiscard]] DropPlace drop_place(const QPointF& point) const;
+    [[nodiscard]] dvec3 lamp_place() const; ///< above placement_point(), below the ceiling, world metres
+
 Q_SIGNALS:
     void tool_changed(atrium::ui::ToolKind tool);
     void walk_mode_changed(bool on);

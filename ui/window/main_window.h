@@ -24,6 +24,7 @@ class EditController;
 class FileController;
 class ImportBar;
 class LibraryPanel;
+class PhotometryController;
 class PropertiesPanel;
 class SceneTreePanel;
 class StartPage;
@@ -44,6 +45,7 @@ public:
     [[nodiscard]] FileController& files() { return *files_; }
     [[nodiscard]] SceneTreePanel& tree() { return *tree_; }
     [[nodiscard]] LibraryPanel& library() { return *library_; }
+    [[nodiscard]] PhotometryController& photometry() { return *photometry_; }
     [[nodiscard]] CausticPanel& caustics() { return *caustics_; }
     [[nodiscard]] Recovery& recovery() { return *recovery_; }
     [[nodiscard]] QAction* action(ActionId id) const;
@@ -78,6 +80,8 @@ private:
     void update_page();
     void update_recent();
     void export_picture();
+    dvec3 lamp_place(); ///< where a new lamp hangs; leaves the start page
+    void drop_photometry(const QString& path, const QPointF& position);
     void say(const QString& text);
     void on(ActionId id, std::function<void()> slot);
 
@@ -87,6 +91,7 @@ private:
     Actions* actions_ = nullptr;
     FileController* files_ = nullptr;
     EditController* edit_ = nullptr;
+    PhotometryController* photometry_ = nullptr;
     ViewportWidget* viewport_ = nullptr;
     StartPage* start_ = nullptr;
     ImportBar* import_bar_ = nullptr;
