@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
     const QCommandLineOption select(QStringLiteral("select"), QObject::tr("select the node of this name"),
                                     QStringLiteral("NODE"));
     const QCommandLineOption panel(QStringLiteral("panel"),
-                                   QObject::tr("bring a panel to the front: tree, properties, jobs, problems, "
+                                   QObject::tr("bring a panel to the front: library, tree, properties, jobs, problems, "
                                                "caustics; none puts all away"),
                                    QStringLiteral("NAME"));
     const QCommandLineOption command(QStringLiteral("command"),

@@ -1,8 +1,8 @@
 #include "ui/document/document.h"
 #include "ui/document/gesture.h"
+#include "ui/document/insert_commands.h"
 #include "ui/document/recovery.h"
 #include "ui/document/sample_room.h"
-#include "ui/document/scene_commands.h"
 
 #include "engine/io/scene_file.h"
 

@@ -1,42 +1,13 @@
 #include "ui/document/scene_commands.h"
 
-#include "engine/scene/edit_tools.h"
+#include "ui/document/edit_builder.h"
 
 #include <algorithm>
-#include <unordered_map>
 #include <unordered_set>
 
 namespace atrium::ui {
 
 namespace {
-
-/// Collects edits while applying them to a copy, so that each new id is free given the edits before it.
-class Builder {
-public:
-    explicit Builder(const Scene& scene) : scratch_(scene) {}
-    const Scene& scene() const { return scratch_; }
-    void add(SceneEdit edit) {
-        if (atrium::apply(scratch_, edit)) {
-            edits_.push_back(std::move(edit));
-        }
-    }
-    NodeId add_node(Node node, std::size_t index = SIZE_MAX) {
-        const NodeId id = scratch_.nodes.next_key();
-        node.children.clear();
-        add(SceneEdit{AddNode{id, std::move(node), index}});
-        return id;
-    }
-    template <class T> Id<T> add_resource(const SlotMap<T>& pool, T value) {
-        const Id<T> id = pool.next_key();
-        add(SceneEdit{AddResource<T>{id, std::move(value)}});
-        return id;
-    }
-    SceneEdit finish() { return as_one(std::move(edits_)); }
-
-private:
-    Scene scratch_;
-    std::vector<SceneEdit> edits_;
-};
 
 const dquat kLieDown = glm::angleAxis(-kPiD / 2, dvec3(1, 0, 0)); // local +z to world +y
 const dquat kFaceDown = glm::angleAxis(kPiD / 2, dvec3(1, 0, 0)); // local +z to world -y
@@ -57,7 +28,7 @@ const std::vector<NodeId>& siblings(const Scene& scene, NodeId parent) {
     return node == nullptr ? scene.roots : node->children;
 }
 
-NodeId copy_subtree(Builder& builder, NodeId source, NodeId parent, std::size_t index, const std::string& name) {
+NodeId copy_subtree(EditBuilder& builder, NodeId source, NodeId parent, std::size_t index, const std::string& name) {
     Node node = *builder.scene().nodes.find(source);
     const std::vector<NodeId> children = node.children;
     node.parent = parent;
@@ -107,7 +78,7 @@ std::size_t material_users(const Scene& scene, MaterialId material) {
 }
 
 Command add_object(const Scene& scene, NewObject kind, const dvec3& at, const std::string& name) {
-    Builder builder(scene);
+    EditBuilder builder(scene);
     Node node;
     node.name = free_name(scene, name);
     node.transform.translation = at;
@@ -206,7 +177,7 @@ Command add_object(const Scene& scene, NewObject kind, const dvec3& at, const st
 
 Command add_luminaire(const Scene& scene, std::shared_ptr<const PhotometricWeb> web, const dvec3& at,
                       const std::string& name) {
-    Builder builder(scene);
+    EditBuilder builder(scene);
     Node node;
     node.name = free_name(scene, name);
     Light light;
@@ -239,7 +210,7 @@ SceneEdit set_lamp_photometry(const Scene& scene, const std::vector<LightId>& li
 }
 
 Command add_camera(const Scene& scene, const dmat4& to_world, const Camera& lens, const std::string& name) {
-    Builder builder(scene);
+    EditBuilder builder(scene);
     Node node;
     node.name = free_name(scene, name);
     node.transform = decompose(to_world);
@@ -260,7 +231,7 @@ SceneEdit delete_nodes(const std::vector<NodeId>& nodes) {
 }
 
 Command duplicate_nodes(const Scene& scene, const std::vector<NodeId>& nodes) {
-    Builder builder(scene);
+    EditBuilder builder(scene);
     std::vector<NodeId> copies;
     for (const NodeId id : nodes) {
         const Node* node = builder.scene().nodes.find(id);
@@ -276,7 +247,7 @@ Command duplicate_nodes(const Scene& scene, const std::vector<NodeId>& nodes) {
 }
 
 Command group_nodes(const Scene& scene, const std::vector<NodeId>& nodes, const std::string& name) {
-    Builder builder(scene);
+    EditBuilder builder(scene);
     Node group;
     group.name = free_name(scene, name);
     if (const Node* first = nodes.empty() ? nullptr : scene.nodes.find(nodes.front())) {
@@ -288,7 +259,7 @@ Command group_nodes(const Scene& scene, const std::vector<NodeId>& nodes, const 
 }
 
 SceneEdit reparent_nodes(const Scene& scene, const std::vector<NodeId>& nodes, NodeId parent, std::size_t index) {
-    Builder builder(scene);
+    EditBuilder builder(scene);
     const dmat4 to_parent = glm::inverse(scene.world_matrix(parent));
     for (const NodeId id : nodes) {
         const Node* node = builder.scene().nodes.find(id);
@@ -312,53 +283,8 @@ SceneEdit reparent_nodes(const Scene& scene, const std::vector<NodeId>& nodes, N
     return builder.finish();
 }
 
-Command merge_scene(const Scene& scene, const Scene& other, const std::string& name) {
-    Builder builder(scene);
-    std::unordered_map<TextureId, TextureId> textures;
-    std::unordered_map<MaterialId, MaterialId> materials;
-    std::unordered_map<ShapeId, ShapeId> shapes;
-    std::unordered_map<LightId, LightId> lights;
-    std::unordered_map<CameraId, CameraId> cameras;
-    const auto mapped = [](const auto& map, auto id) {
-        const auto it = map.find(id);
-        return it == map.end() ? decltype(id){} : it->second;
-    };
-    other.textures.for_each(
-        [&](TextureId id, const Texture& t) { textures[id] = builder.add_resource(builder.scene().textures, Texture(t)); });
-    other.materials.for_each([&](MaterialId id, Material m) {
-        m.base_color_texture.texture = mapped(textures, m.base_color_texture.texture);
-        m.emissive_texture.texture = mapped(textures, m.emissive_texture.texture);
-        for (Material::OtherTexture& t : m.other_textures) {
-            t.ref.texture = mapped(textures, t.ref.texture);
-        }
-        materials[id] = builder.add_resource(builder.scene().materials, std::move(m));
-    });
-    other.shapes.for_each(
-        [&](ShapeId id, const Shape& s) { shapes[id] = builder.add_resource(builder.scene().shapes, Shape(s)); });
-    other.lights.for_each(
-        [&](LightId id, const Light& l) { lights[id] = builder.add_resource(builder.scene().lights, Light(l)); });
-    other.cameras.for_each(
-        [&](CameraId id, const Camera& c) { cameras[id] = builder.add_resource(builder.scene().cameras, Camera(c)); });
-    Node group;
-    group.name = free_name(scene, name);
-    const NodeId top = builder.add_node(std::move(group));
-    std::unordered_map<NodeId, NodeId> nodes;
-    for (const NodeId id : other.in_tree_order()) {
-        Node node = *other.nodes.find(id);
-        node.parent = node.parent ? mapped(nodes, node.parent) : top;
-        node.shape = mapped(shapes, node.shape);
-        node.light = mapped(lights, node.light);
-        node.camera = mapped(cameras, node.camera);
-        for (MaterialId& material : node.materials) {
-            material = mapped(materials, material);
-        }
-        nodes[id] = builder.add_node(std::move(node));
-    }
-    return {builder.finish(), {top}};
-}
-
 Command wrap_roots(const Scene& scene, double unit_scale, bool z_up, const std::string& name) {
-    Builder builder(scene);
+    EditBuilder builder(scene);
     Node group;
     group.name = free_name(scene, name);
     group.transform.scale = dvec3(unit_scale);
@@ -398,7 +324,7 @@ SceneEdit set_locked(const Scene& scene, const std::vector<NodeId>& nodes, bool 
 }
 
 SceneEdit make_material_unique(const Scene& scene, NodeId node, std::size_t part, const std::string& name) {
-    Builder builder(scene);
+    EditBuilder builder(scene);
     Node value = *scene.nodes.find(node);
     const Material* shared = scene.material_of(value, part);
     Material material = shared == nullptr ? default_material() : *shared;

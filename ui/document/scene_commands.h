@@ -53,8 +53,6 @@ Command duplicate_nodes(const Scene& scene, const std::vector<NodeId>& nodes);
 Command group_nodes(const Scene& scene, const std::vector<NodeId>& nodes, const std::string& name);
 /// Moves nodes below `parent` (none = root) at `index`, with their world placement kept (nearest, under shear).
 SceneEdit reparent_nodes(const Scene& scene, const std::vector<NodeId>& nodes, NodeId parent, std::size_t index);
-/// Everything of `other` under a new root group; ids are new.
-Command merge_scene(const Scene& scene, const Scene& other, const std::string& name);
 /// Wraps all roots in a group that scales by `unit_scale` and, with `z_up`, turns +Z to +Y.
 Command wrap_roots(const Scene& scene, double unit_scale, bool z_up, const std::string& name);
 /// SetNode with visible or locked changed for each node.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "ui/document/document.h"
+#include "ui/tools/snapping.h"
 #include "ui/viewport/overlay_batch.h"
 #include "ui/viewport/view_scene.h"
 
@@ -23,6 +24,9 @@ public:
     [[nodiscard]] virtual const CameraController& camera() const = 0;
     /// Surface, light or camera icon under a point; none for the background.
     [[nodiscard]] virtual std::optional<PickHit> pick(const dvec2& point) const = 0;
+    /// What is shown, for questions about surfaces.
+    [[nodiscard]] virtual const ViewScene& view_scene() const = 0;
+    [[nodiscard]] virtual const Snapping& snapping() const = 0;
     virtual void show_message(const QString& text) = 0;
 };
 

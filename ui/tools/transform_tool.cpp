@@ -1,5 +1,7 @@
 #include "ui/tools/transform_tool.h"
 
+#include "ui/document/placement.h"
+
 #include <QCoreApplication>
 #include <QLocale>
 
@@ -8,9 +10,8 @@
 namespace atrium::ui {
 namespace {
 
-constexpr double kMoveSnap = 0.1;
-constexpr double kRotateSnap = 15.0 * kPiD / 180.0;
-constexpr double kScaleSnap = 0.1;
+constexpr double kSnapPixels = 9.0; ///< a face as near as this on the screen is met
+constexpr double kSnapNear = 0.5;   ///< metres beside the object within which faces count
 constexpr double kSmallestFactor = 0.01;
 constexpr double kFine = 0.1;
 
@@ -151,6 +152,8 @@ bool TransformTool::begin(Handle handle, const dvec2& point, std::optional<dvec3
         drag->grabbed = *hit;
     }
     drag->last_point = point;
+    drag->body = body.has_value();
+    remember_bounds(*drag);
     drag->gesture = std::make_unique<Gesture>(host_.document(), undo_text());
     drag_ = std::move(drag);
     // What the first position measures is zero by definition.
@@ -158,6 +161,85 @@ bool TransformTool::begin(Handle handle, const dvec2& point, std::optional<dvec3
         drag_->last_raw = *raw;
         drag_->has_raw = true;
     }
+    return true;
+}
+
+void TransformTool::remember_bounds(Drag& drag) const {
+    const Scene& scene = host_.document().scene();
+    for (const Target& target : drag.targets) {
+        for (const NodeId id : scene.in_tree_order(target.node)) {
+            drag.own.insert(id);
+        }
+    }
+    const dvec3 origin(scene.world_matrix(drag.targets.front().node)[3]);
+    for (const ViewItem& item : host_.view_scene().items()) {
+        if (!drag.own.contains(item.node)) {
+            drag.others.push_back(item.bounds);
+            continue;
+        }
+        drag.bounds.add(item.bounds);
+        const Box3& local = item.bvh->bounds();
+        for (int corner = 0; corner < 8; ++corner) {
+            const dvec3 p((corner & 1) != 0 ? local.max.x : local.min.x, (corner & 2) != 0 ? local.max.y : local.min.y,
+                          (corner & 4) != 0 ? local.max.z : local.min.z);
+            drag.corners.push_back(dvec3(item.world * dvec4(p, 1.0)) - origin);
+        }
+    }
+}
+
+/// Puts what is dragged on the surface under the cursor; false where there is none.
+bool TransformTool::slide(const Pointer& pointer) {
+    const PickRules rules{&drag_->own, false};
+    const auto hit =
+        host_.view_scene().pick(host_.camera().ray(pointer.position), std::numeric_limits<double>::infinity(), rules);
+    if (!hit || drag_->corners.empty()) {
+        return false;
+    }
+    const Snapping& snapping = host_.snapping();
+    const dvec3& normal = hit->normal;
+    const Target& first = drag_->targets.front();
+    const dmat4 start = first.parent * first.start.matrix();
+    dquat turn(1.0, 0.0, 0.0, 0.0);
+    if (snapping.turn_to_surface && drag_->targets.size() == 1) {
+        const dvec3 own_up = glm::normalize(dvec3(start[1]));
+        turn = turn_to_face(normal) * glm::inverse(turn_to_face(own_up));
+    }
+    DBox3 box; // turned, about the target's origin
+    double support = std::numeric_limits<double>::infinity();
+    for (const dvec3& corner : drag_->corners) {
+        const dvec3 p = turn * corner;
+        box.add(p);
+        support = std::min(support, glm::dot(p, normal));
+    }
+    // The middle of the box over the point, its lowest corner in the plane.
+    const dvec3 middle = box.centre() - normal * glm::dot(box.centre(), normal);
+    dvec3 origin = hit->point - middle - normal * support;
+    if (!drag_->slide_from) {
+        drag_->slide_from = normal;
+        const dvec3 gap = dvec3(start[3]) - origin;
+        drag_->slide_offset = gap - normal * glm::dot(gap, normal);
+    }
+    // It keeps under the hand as it was grabbed while the surface keeps its direction.
+    if (glm::dot(*drag_->slide_from, normal) > 0.99) {
+        origin += drag_->slide_offset;
+    }
+    dvec3 amount = origin - dvec3(start[3]);
+    if (snapping.on != pointer.modifiers.testFlag(Qt::ControlModifier)) {
+        const dvec3 along = amount - normal * glm::dot(amount, normal);
+        const dvec3 steps = glm::round(along / snapping.grid) * snapping.grid;
+        amount += (steps - normal * glm::dot(steps, normal)) - along;
+    }
+    drag_->amount = amount;
+    drag_->has_raw = false; // off the surfaces it goes on from here
+    if (drag_->targets.size() > 1 || turn == dquat(1.0, 0.0, 0.0, 0.0)) {
+        apply(amount);
+        return true;
+    }
+    dmat4 turned = glm::mat4_cast(turn) * start;
+    turned[3] = dvec4(dvec3(start[3]) + amount, 1.0);
+    const Transform next = decompose(first.parent_inverse * turned);
+    (void)host_.document().apply(SceneEdit{SetTransform{first.node, next}}, undo_text());
+    host_.show_message(read_out(*drag_, amount));
     return true;
 }
 
@@ -178,6 +260,12 @@ void TransformTool::move(const Pointer& pointer) {
         SelectTool::move(pointer);
         return;
     }
+    hints_.clear();
+    hint_text_.clear();
+    if (drag_->body && typed_.isEmpty() && host_.snapping().on_surfaces && slide(pointer)) {
+        drag_->last_point = pointer.position;
+        return;
+    }
     const auto raw = measure(*drag_, host_.camera().ray(pointer.position), pointer.position);
     if (raw) {
         if (drag_->has_raw) {
@@ -189,7 +277,7 @@ void TransformTool::move(const Pointer& pointer) {
     }
     drag_->last_point = pointer.position;
     if (typed_.isEmpty()) {
-        const bool snap = pointer.modifiers.testFlag(Qt::ControlModifier);
+        const bool snap = host_.snapping().on != pointer.modifiers.testFlag(Qt::ControlModifier);
         apply(snap ? snapped(*drag_, drag_->amount) : drag_->amount);
     }
 }
@@ -203,7 +291,7 @@ void TransformTool::apply(const dvec3& amount) {
             return;
         }
     }
-    host_.show_message(typed_.isEmpty() ? read_out(*drag_, amount)
+    host_.show_message(typed_.isEmpty() ? read_out(*drag_, amount) + hint_text_
                                         : read_out(*drag_, amount) + QStringLiteral("   [%1]").arg(typed_));
 }
 
@@ -213,6 +301,8 @@ void TransformTool::finish() {
         drag_.reset();
     }
     typed_.clear();
+    hints_.clear();
+    hint_text_.clear();
 }
 
 void TransformTool::release(const Pointer& pointer) {
@@ -234,6 +324,8 @@ void TransformTool::cancel() {
     drag_.reset(); // the gesture rolls back
     armed_ = false;
     typed_.clear();
+    hints_.clear();
+    hint_text_.clear();
     SelectTool::cancel();
     if (dragged) {
         host_.show_message(tr("Cancelled"));
@@ -278,6 +370,9 @@ bool TransformTool::hover(const Pointer& pointer) {
 
 void TransformTool::draw(OverlayBatch& batch) const {
     SelectTool::draw(batch);
+    for (const auto& [a, b] : hints_) {
+        batch.line3(host_.camera(), a, b, 2.0, vec4(1.0F, 0.62F, 0.1F, 0.95F));
+    }
     auto g = gizmo();
     if (!g) {
         return;
@@ -306,8 +401,35 @@ std::optional<dvec3> MoveTool::measure(const Drag& drag, const Ray& ray, const d
     return glm::transpose(drag.gizmo.axes) * (*hit - drag.grabbed);
 }
 
-dvec3 MoveTool::snapped(const Drag& /*drag*/, const dvec3& amount) const {
-    return glm::round(amount / kMoveSnap) * kMoveSnap;
+dvec3 MoveTool::snapped(const Drag& drag, const dvec3& amount) {
+    const double grid = host_.snapping().grid;
+    dvec3 out = glm::round(amount / grid) * grid;
+    if (drag.bounds.empty()) {
+        return out;
+    }
+    const DBox3 moving{drag.bounds.min + amount, drag.bounds.max + amount};
+    const double reach = kSnapPixels * host_.camera().pixel_size(moving.centre());
+    const auto faces = snap_to_faces(moving, drag.others, reach, kSnapNear);
+    const int handle = handle_axis(drag.handle);
+    for (int axis = 0; axis < 3; ++axis) {
+        const bool along = handle < 0 ? std::abs(drag.normal[axis]) < 0.999 : (handle == axis) != is_plane(drag.handle);
+        const auto& face = faces[std::size_t(axis)];
+        if (!along || !face) {
+            continue;
+        }
+        out[axis] = amount[axis] + face->shift;
+        // The line lies in the met plane and reaches over both boxes.
+        const int level = axis == 0 ? 2 : 0;
+        dvec3 a = moving.centre();
+        a.y = moving.min.y;
+        a[axis] = face->plane;
+        dvec3 b = a;
+        a[level] = std::min(moving.min[level], face->other.min[level]);
+        b[level] = std::max(moving.max[level], face->other.max[level]);
+        hints_.emplace_back(a, b);
+        hint_text_ += tr("   flush in %1").arg(QLatin1String(axis_name(axis)));
+    }
+    return out;
 }
 
 dvec3 MoveTool::from_number(const Drag& drag, double value) const {
@@ -371,8 +493,9 @@ std::optional<dvec3> RotateTool::measure(const Drag& drag, const Ray& ray, const
     return dvec3(drag.last_raw.x + std::remainder(angle - drag.last_raw.x, 2.0 * kPiD), 0.0, 0.0);
 }
 
-dvec3 RotateTool::snapped(const Drag& /*drag*/, const dvec3& amount) const {
-    return {std::round(amount.x / kRotateSnap) * kRotateSnap, 0.0, 0.0};
+dvec3 RotateTool::snapped(const Drag& /*drag*/, const dvec3& amount) {
+    const double step = host_.snapping().angle;
+    return {std::round(amount.x / step) * step, 0.0, 0.0};
 }
 
 dvec3 RotateTool::from_number(const Drag& /*drag*/, double value) const { return {radians_from_degrees(value), 0.0, 0.0}; }
@@ -416,8 +539,9 @@ std::optional<dvec3> ScaleTool::measure(const Drag& drag, const Ray& ray, const 
     return out;
 }
 
-dvec3 ScaleTool::snapped(const Drag& /*drag*/, const dvec3& amount) const {
-    return glm::round(amount / kScaleSnap) * kScaleSnap;
+dvec3 ScaleTool::snapped(const Drag& /*drag*/, const dvec3& amount) {
+    const double step = host_.snapping().factor;
+    return glm::round(amount / step) * step;
 }
 
 dvec3 ScaleTool::from_number(const Drag& drag, double value) const {

@@ -9,12 +9,14 @@
 
 #include <memory>
 #include <optional>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 namespace atrium::ui {
 
 /// Common to the three: finds the targets, opens the gesture, follows the mouse, snaps, takes typed numbers.
-/// Ctrl snaps (0.1 m, 15 degrees, 10 %), Shift moves ten times finer, Esc restores.
+/// Snaps by the steps of ToolHost::snapping(), Ctrl turns snapping round; Shift moves ten times finer, Esc restores.
 class TransformTool : public SelectTool {
 public:
     TransformTool(ToolHost& host, GizmoKind kind) : SelectTool(host), kind_(kind) {}
@@ -49,11 +51,19 @@ protected:
         dvec3 last_raw{0.0};
         dvec3 amount{0.0}; ///< before snapping: metres per gizmo axis, radians in x, or factors - 1
         bool has_raw = false;
+        bool body = false;               ///< dragged by the object itself, not by a handle
+        DBox3 bounds;                    ///< of all targets in the world when the drag began; may be empty
+        std::unordered_set<NodeId> own;  ///< targets and all below them
+        std::vector<DBox3> others;       ///< bounds of everything else that is shown
+        std::vector<dvec3> corners;      ///< of the bounds in the first target's own axes, world scale, about its origin
+        std::optional<dvec3> slide_from; ///< normal of the surface that the slide began on
+        dvec3 slide_offset{0.0};         ///< along that surface, from under the cursor to where the object stands
     };
 
     /// Unsnapped amount for a mouse position, measured from the start; none where the geometry gives no answer.
     virtual std::optional<dvec3> measure(const Drag& drag, const Ray& ray, const dvec2& point) const = 0;
-    [[nodiscard]] virtual dvec3 snapped(const Drag& drag, const dvec3& amount) const = 0;
+    /// `amount` in steps; may leave lines to show in hints_.
+    [[nodiscard]] virtual dvec3 snapped(const Drag& drag, const dvec3& amount) = 0;
     /// Amount that a typed number stands for.
     [[nodiscard]] virtual dvec3 from_number(const Drag& drag, double number) const = 0;
     [[nodiscard]] virtual Transform moved(const Drag& drag, const Target& target, const dvec3& amount) const = 0;
@@ -64,10 +74,16 @@ protected:
     /// Writes a signed number with the user's decimal separator.
     static QString number(double value, int decimals);
 
+    /// World lines that say what the drag has snapped to, and the same in words.
+    std::vector<std::pair<dvec3, dvec3>> hints_;
+    QString hint_text_;
+
 private:
     [[nodiscard]] std::vector<NodeId> targets() const;
     bool begin(Handle handle, const dvec2& point, std::optional<dvec3> body);
     void apply(const dvec3& amount);
+    void remember_bounds(Drag& drag) const;
+    bool slide(const Pointer& pointer);
     void finish();
 
     GizmoKind kind_;
@@ -85,7 +101,7 @@ public:
 
 protected:
     std::optional<dvec3> measure(const Drag& drag, const Ray& ray, const dvec2& point) const override;
-    [[nodiscard]] dvec3 snapped(const Drag& drag, const dvec3& amount) const override;
+    [[nodiscard]] dvec3 snapped(const Drag& drag, const dvec3& amount) override;
     [[nodiscard]] dvec3 from_number(const Drag& drag, double number) const override;
     [[nodiscard]] Transform moved(const Drag& drag, const Target& target, const dvec3& amount) const override;
     [[nodiscard]] QString read_out(const Drag& drag, const dvec3& amount) const override;
@@ -99,7 +115,7 @@ public:
 
 protected:
     std::optional<dvec3> measure(const Drag& drag, const Ray& ray, const dvec2& point) const override;
-    [[nodiscard]] dvec3 snapped(const Drag& drag, const dvec3& amount) const override;
+    [[nodiscard]] dvec3 snapped(const Drag& drag, const dvec3& amount) override;
     [[nodiscard]] dvec3 from_number(const Drag& drag, double number) const override;
     [[nodiscard]] Transform moved(const Drag& drag, const Target& target, const dvec3& amount) const override;
     [[nodiscard]] QString read_out(const Drag& drag, const dvec3& amount) const override;
@@ -112,7 +128,7 @@ public:
 
 protected:
     std::optional<dvec3> measure(const Drag& drag, const Ray& ray, const dvec2& point) const override;
-    [[nodiscard]] dvec3 snapped(const Drag& drag, const dvec3& amount) const override;
+    [[nodiscard]] dvec3 snapped(const Drag& drag, const dvec3& amount) override;
     [[nodiscard]] dvec3 from_number(const Drag& drag, double number) const override;
     [[nodiscard]] Transform moved(const Drag& drag, const Target& target, const dvec3& amount) const override;
     [[nodiscard]] QString read_out(const Drag& drag, const dvec3& amount) const override;

@@ -102,7 +102,7 @@ void ViewScene::sync(const Scene& scene, const std::shared_ptr<const Solution>& 
             stack.push_back({*child, world});
         }
         const Shape* shape = scene.shapes.find(node->shape);
-        if (shape == nullptr) {
+        if (shape == nullptr || (isolated_ && !isolated_->contains(visit.id))) {
             continue;
         }
         const double determinant = glm::determinant(dmat3(world));
@@ -152,11 +152,14 @@ void ViewScene::sync(const Scene& scene, const std::shared_ptr<const Solution>& 
     bvhs_ = std::move(kept);
 }
 
-std::optional<PickHit> ViewScene::pick(const Ray& ray, double max_distance) const {
+std::optional<PickHit> ViewScene::pick(const Ray& ray, double max_distance, const PickRules& rules) const {
     std::optional<PickHit> best;
     double nearest = max_distance;
     for (const ViewItem& item : items_) {
-        const Cutaway::Part cut = cutaway_.part_of(item.bounds);
+        if (rules.skip != nullptr && rules.skip->contains(item.node)) {
+            continue;
+        }
+        const Cutaway::Part cut = rules.through_cutaway ? Cutaway::Part::None : cutaway_.part_of(item.bounds);
         if (item.flattened || cut == Cutaway::Part::All) {
             continue;
         }

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace atrium::ui {
@@ -39,6 +40,12 @@ struct PickHit {
     dvec3 normal{0.0, 1.0, 0.0}; ///< geometric, unit, towards the ray's origin
 };
 
+/// What a pick leaves out.
+struct PickRules {
+    const std::unordered_set<NodeId>* skip = nullptr; ///< nodes that rays go through; may be null
+    bool through_cutaway = false;                     ///< also hit what is cut away from the picture
+};
+
 /// UI thread only (hierarchies are built on pool threads).
 class ViewScene {
 public:
@@ -55,11 +62,15 @@ public:
     void set_cutaway(const Cutaway& cutaway) { cutaway_ = cutaway; }
     [[nodiscard]] const Cutaway& cutaway() const { return cutaway_; }
 
+    /// Shows only these nodes from the next sync() on; none = everything. The light stays that of the whole scene.
+    void set_isolated(std::optional<std::unordered_set<NodeId>> nodes) { isolated_ = std::move(nodes); }
+    [[nodiscard]] const std::optional<std::unordered_set<NodeId>>& isolated() const { return isolated_; }
+
     [[nodiscard]] const std::vector<ViewItem>& items() const { return items_; }
     /// Nearest visible surface; back sides of single-sided materials are not drawn and not hit. Blended and cut-out parts
     /// count as solid.
-    [[nodiscard]] std::optional<PickHit> pick(const Ray& ray,
-                                              double max_distance = std::numeric_limits<double>::infinity()) const;
+    [[nodiscard]] std::optional<PickHit> pick(const Ray& ray, double max_distance = std::numeric_limits<double>::infinity(),
+                                              const PickRules& rules = {}) const;
 
 private:
     struct CachedMesh {
@@ -71,6 +82,7 @@ private:
 
     std::vector<ViewItem> items_;
     Cutaway cutaway_;
+    std::optional<std::unordered_set<NodeId>> isolated_;
     std::map<std::pair<ShapeId, std::uint32_t>, CachedMesh> unlit_;
     std::unordered_map<const DisplayMesh*, std::shared_ptr<const MeshBvh>> bvhs_;
     std::unordered_map<NodeId, std::uint64_t> valid_from_; ///< layers of older solutions show an older shape

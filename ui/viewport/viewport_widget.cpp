@@ -3,13 +3,18 @@
 
 #include "engine/view/tone.h"
 #include "ui/document/background.h"
-#include "ui/document/scene_commands.h"
+#include "ui/document/insert_commands.h"
+#include "ui/document/scene_mime.h"
+#include "ui/tools/place_tool.h"
+#include "ui/tools/surface.h"
 #include "ui/tools/transform_tool.h"
 #include "ui/viewport/look_at.h"
 #include "ui/viewport/markers.h"
 #include "ui/viewport/picture_renderer.h"
 
+#include <QDragEnterEvent>
 #include <QElapsedTimer>
+#include <QLocale>
 #include <QMouseEvent>
 #include <QNativeGestureEvent>
 #include <QOpenGLContext>
@@ -58,6 +63,9 @@ struct ViewportWidget::Impl : ToolHost {
 
     std::array<std::unique_ptr<Tool>, 4> tools;
     ToolKind tool_kind = ToolKind::Select;
+    PlaceTool place_tool{*this};
+    Snapping snapping_choice;
+    bool orbit_selection = false;
     float exposure_ev = 0;
     double mean_radiance = 0;
     bool mean_is_final = false;
@@ -121,6 +129,7 @@ struct ViewportWidget::Impl : ToolHost {
         QObject::connect(&doc, &Document::reset_done, &widget, [this] { document_reset(); });
         QObject::connect(&doc, &Document::edited, &widget, [this](const SceneEdit& edit) {
             view.note_edit(doc.scene(), edit, doc.revision());
+            note_isolated(edit);
             scene_changed();
             if (!doc.in_gesture()) {
                 selection_changed(); // what lies below the selected nodes may be other nodes now
@@ -146,6 +155,56 @@ struct ViewportWidget::Impl : ToolHost {
     Document& document() override { return doc; }
     [[nodiscard]] const CameraController& camera() const override { return controller; }
     void show_message(const QString& text) override { Q_EMIT widget.message(text); }
+    [[nodiscard]] const ViewScene& view_scene() const override { return view; }
+    [[nodiscard]] const Snapping& snapping() const override { return snapping_choice; }
+    /// What is added while some objects are shown alone is shown, too.
+    void note_isolated(const SceneEdit& edit) {
+        if (!view.isolated()) {
+            return;
+        }
+        if (const auto* group = std::get_if<EditGroup>(&edit.value)) {
+            for (const SceneEdit& one : group->edits) {
+                note_isolated(one);
+            }
+        } else if (const auto* added = std::get_if<AddNode>(&edit.value)) {
+            auto nodes = *view.isolated();
+            nodes.insert(added->id);
+            view.set_isolated(std::move(nodes));
+        }
+    }
+    void isolate(std::optional<std::unordered_set<NodeId>> nodes) {
+        if (!nodes && !view.isolated()) {
+            return;
+        }
+        const bool on = nodes.has_value();
+        view.set_isolated(std::move(nodes));
+        scene_changed();
+        Q_EMIT widget.isolated_changed(on);
+    }
+    /// Middle of what is selected, for turning about it.
+    [[nodiscard]] std::optional<dvec3> selection_centre() const {
+        DBox3 box;
+        for (const NodeId id : doc.selection()->nodes()) {
+            const DBox3 one = doc.scene().subtree_bounds(id);
+            if (!one.empty()) {
+                box.add(one);
+            } else if (doc.scene().nodes.contains(id)) {
+                box.add(dvec3(doc.scene().world_matrix(id)[3]));
+            }
+        }
+        return box.empty() ? std::nullopt : std::optional(box.centre());
+    }
+    bool answer_drag(QDropEvent* event, bool drop) {
+        if (!place_tool.active()) {
+            return false;
+        }
+        sync();
+        const Pointer pointer{to_vec(event->position()), event->modifiers()};
+        const bool good = drop ? place_tool.drop(pointer) : place_tool.move(pointer);
+        set_hovered(place_tool.target());
+        widget.update();
+        return good;
+    }
     [[nodiscard]] std::optional<PickHit> pick(const dvec2& point) const override {
         const Ray ray = controller.ray(point);
         const Marker* marker =
@@ -226,6 +285,8 @@ struct ViewportWidget::Impl : ToolHost {
         cancel();
         ++document_number;
         view.clear();
+        place_tool.cancel();
+        isolate(std::nullopt);
         solution.reset();
         stop_awaiting();
         mean_radiance = 0;
@@ -330,6 +391,9 @@ struct ViewportWidget::Impl : ToolHost {
             view.sync(doc.scene(), solution);
             renderer.invalidate_items();
             markers = find_markers(doc.scene());
+            if (view.isolated()) {
+                std::erase_if(markers, [this](const Marker& m) { return !view.isolated()->contains(m.node); });
+            }
             markers_dirty = true;
             if (!doc.in_gesture()) {
                 controller.set_scene_bounds(robust_bounds(doc.scene()));
@@ -482,6 +546,7 @@ ViewportWidget::ViewportWidget(Document& document, EngineLink& engine, QWidget* 
     wanted.setSamples(0); // smoothing happens in our own target, where the picture is kept
     setFormat(wanted);
     setFocusPolicy(Qt::StrongFocus);
+    setAcceptDrops(true);
     setMouseTracking(true);
     setMinimumSize(160, 120);
     setAccessibleName(tr("3D view"));
@@ -500,6 +565,7 @@ ViewportWidget::ViewportWidget(Document& document, EngineLink& engine, QWidget* 
 
 ViewportWidget::~ViewportWidget() {
     disconnect(impl_->context_gone); // it would come after impl_ is gone
+    impl_->place_tool.cancel();
     impl_->tool().cancel();
     makeCurrent();
     impl_->renderer.release();
@@ -662,6 +728,115 @@ dvec3 ViewportWidget::placement_point() const {
     return floor ? floor->point : ahead;
 }
 
+void ViewportWidget::place(const std::shared_ptr<const LibraryItem>& item) {
+    impl_->cancel();
+    impl_->sync();
+    const CameraController& camera = impl_->controller;
+    const Pointer middle{{0.5 * camera.width(), 0.5 * camera.height()}, {}};
+    impl_->place_tool.begin(item);
+    if (impl_->place_tool.active() && !impl_->place_tool.drop(middle) && item->scene) {
+        Q_EMIT message(tr("There is no surface in the middle of the view."));
+    }
+    update();
+}
+
+dmat4 ViewportWidget::placement_for(const DBox3& bounds) const {
+    impl_->sync();
+    const CameraController& camera = impl_->controller;
+    const Ray ray = camera.ray({0.5 * camera.width(), 0.5 * camera.height()});
+    const auto found = placement_under(impl_->view, ray, Mount::Stand, bounds, {}, 0.0);
+    return found ? *found : place_on(bounds, Mount::Stand, placement_point(), dvec3(0, 1, 0));
+}
+
+void ViewportWidget::set_snapping(const Snapping& snapping) { impl_->snapping_choice = snapping; }
+const Snapping& ViewportWidget::snapping() const { return impl_->snapping_choice; }
+
+void ViewportWidget::set_orbit_selection(bool on) { impl_->orbit_selection = on; }
+
+void ViewportWidget::drop_to_surface() {
+    Document& doc = impl_->doc;
+    if (doc.in_gesture()) {
+        return;
+    }
+    impl_->sync();
+    std::vector<SceneEdit> edits;
+    double most = 0;
+    std::size_t without = 0;
+    for (const NodeId id : doc.selection()->top_level(doc.scene())) {
+        const Node* node = doc.scene().nodes.find(id);
+        const std::optional<double> found = node->locked ? std::nullopt : fall_distance(impl_->view, doc.scene(), id);
+        const double fall = found.value_or(0.0);
+        const dmat4 parent = doc.scene().world_matrix(node->parent);
+        if (!found || !(std::abs(glm::determinant(dmat3(parent))) > 0.0)) {
+            ++without;
+            continue;
+        }
+        Transform next = node->transform;
+        next.translation += dvec3(glm::inverse(parent) * dvec4(0.0, -fall, 0.0, 0.0));
+        edits.push_back(SceneEdit{SetTransform{id, next}});
+        most = std::abs(fall) > std::abs(most) ? fall : most;
+    }
+    if (edits.empty()) {
+        Q_EMIT message(without == 0 ? tr("Select an object first.")
+                                    : tr("Nothing lies below the selection, or it is locked."));
+        return;
+    }
+    const auto done = doc.apply(as_one(std::move(edits)), tr("Drop to surface"));
+    Q_EMIT message(!done                   ? QString::fromStdString(done.error().message())
+                   : std::abs(most) < 5e-4 ? tr("The selection rests already.")
+                                           : tr("Lowered by %1 m").arg(QLocale().toString(most, 'f', 3)));
+}
+
+void ViewportWidget::set_isolated(bool on) {
+    if (!on) {
+        impl_->isolate(std::nullopt);
+        return;
+    }
+    std::unordered_set<NodeId> nodes;
+    for (const NodeId id : impl_->doc.selection()->nodes()) {
+        for (const NodeId below : impl_->doc.scene().in_tree_order(id)) {
+            nodes.insert(below);
+        }
+    }
+    if (nodes.empty()) {
+        Q_EMIT message(tr("Select an object first."));
+        Q_EMIT isolated_changed(false);
+        return;
+    }
+    impl_->isolate(std::move(nodes));
+    Q_EMIT message(tr("Only the selection is shown; its light is that of the whole scene."));
+}
+
+void ViewportWidget::dragEnterEvent(QDragEnterEvent* event) {
+    const auto* mime = qobject_cast<const SceneMime*>(event->mimeData());
+    if (mime != nullptr && mime->item()) {
+        impl_->cancel();
+        impl_->place_tool.begin(mime->item());
+        event->setDropAction(Qt::CopyAction);
+        event->accept();
+    } else {
+        event->ignore();
+    }
+}
+
+void ViewportWidget::dragMoveEvent(QDragMoveEvent* event) {
+    event->setDropAction(Qt::CopyAction);
+    event->setAccepted(impl_->answer_drag(event, false));
+}
+
+void ViewportWidget::dragLeaveEvent(QDragLeaveEvent* /*event*/) {
+    impl_->place_tool.cancel();
+    impl_->set_hovered({});
+    update();
+}
+
+void ViewportWidget::dropEvent(QDropEvent* event) {
+    event->setDropAction(Qt::CopyAction);
+    event->setAccepted(impl_->answer_drag(event, true));
+    impl_->set_hovered({});
+    setFocus(Qt::OtherFocusReason);
+}
+
 dvec3 ViewportWidget::lamp_place() const { return impl_->lamp_above(placement_point()); }
 
 ViewportWidget::DropPlace ViewportWidget::drop_place(const QPointF& point) const {
@@ -761,6 +936,9 @@ void ViewportWidget::mousePressEvent(QMouseEvent* event) {
     if (impl_->navigation != Impl::Navigation::None) {
         impl_->last_point = point;
         impl_->pivot = impl_->point_under(point);
+        if (impl_->orbit_selection && impl_->navigation == Impl::Navigation::Orbit) {
+            impl_->pivot = impl_->selection_centre().value_or(impl_->pivot);
+        }
         impl_->set_hovered({});
     } else if (event->button() == Qt::LeftButton) {
         if (event->type() == QEvent::MouseButtonDblClick) {

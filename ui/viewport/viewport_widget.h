@@ -4,6 +4,8 @@
 #include "engine/view/still.h"
 #include "ui/document/document.h"
 #include "ui/document/engine_link.h"
+#include "ui/document/library.h"
+#include "ui/tools/snapping.h"
 #include "ui/viewport/light_views.h"
 
 #include <QOpenGLWidget>
@@ -47,6 +49,17 @@ public:
     void set_camera(const ViewCamera& camera);
     /// Point on the floor or nearest surface in the middle of the view: where new objects are placed, world metres.
     [[nodiscard]] dvec3 placement_point() const;
+    /// Puts a library object on the surface in the middle of the view and selects it: one undo entry.
+    void place(const std::shared_ptr<const LibraryItem>& item);
+    /// World placement of an object with these bounds on the surface in the middle of the view.
+    [[nodiscard]] dmat4 placement_for(const DBox3& bounds) const;
+    void set_snapping(const Snapping& snapping);
+    [[nodiscard]] const Snapping& snapping() const;
+    /// Lets the selected objects fall until they rest on something: one undo entry.
+    void drop_to_surface();
+    /// Shows the selected objects alone, or everything again; the light stays that of the whole scene.
+    void set_isolated(bool on);
+    void set_orbit_selection(bool on); ///< turn about what is selected instead of about the point under the cursor
 
     /// What lies under a point of the widget, for something that is dropped there.
     struct DropPlace {
@@ -59,6 +72,7 @@ public:
 Q_SIGNALS:
     void tool_changed(atrium::ui::ToolKind tool);
     void walk_mode_changed(bool on);
+    void isolated_changed(bool on);
     void message(const QString& text); ///< for the status bar: drag read-outs ("x +0.25 m"), hints
 
 protected:
@@ -72,6 +86,10 @@ protected:
     void keyPressEvent(QKeyEvent* event) override;
     void keyReleaseEvent(QKeyEvent* event) override;
     void focusOutEvent(QFocusEvent* event) override;
+    void dragEnterEvent(QDragEnterEvent* event) override; ///< library entries; files go on to the window
+    void dragMoveEvent(QDragMoveEvent* event) override;
+    void dragLeaveEvent(QDragLeaveEvent* event) override;
+    void dropEvent(QDropEvent* event) override;
     bool event(QEvent* event) override; ///< keys that a drag or walking needs before shortcuts, pinch, leave
 
 private:

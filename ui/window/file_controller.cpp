@@ -2,8 +2,8 @@
 
 #include "engine/io/scene_file.h"
 #include "ui/document/background.h"
+#include "ui/document/insert_commands.h"
 #include "ui/document/sample_room.h"
-#include "ui/document/scene_commands.h"
 #include "ui/window/settings.h"
 
 #include <QFileDialog>

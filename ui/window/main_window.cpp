@@ -119,6 +119,8 @@ MainWindow::MainWindow(const QString& recovery_directory, QWidget* parent) : QMa
     connect_files();
     connect_edit();
     connect_view();
+    connect_editing();
+    make_snapping();
     connect_documents();
 
     resize(1360, 860);
@@ -203,13 +205,8 @@ void MainWindow::make_docks() {
         problems_badge_->setText(QString::number(all));
     });
     connect(properties_, &PropertiesPanel::message, this, &MainWindow::say);
-    connect(properties_, &PropertiesPanel::look_through, this, [this](NodeId id) {
-        const Node* node = document_.scene().nodes.find(id);
-        const Camera* lens = node == nullptr ? nullptr : document_.scene().cameras.find(node->camera);
-        if (lens != nullptr) {
-            viewport_->set_camera({document_.scene().world_matrix(id), *lens});
-        }
-    });
+    connect(properties_, &PropertiesPanel::look_through, this, &MainWindow::look_through);
+    make_library();
 }
 
 void MainWindow::make_menus() {
@@ -240,38 +237,66 @@ void MainWindow::make_menus() {
         return menu;
     };
     const ActionId gap = ActionId::Count;
-    fill(tr("&Edit"), {ActionId::Undo,
-                       ActionId::Redo,
-                       gap,
-                       ActionId::Duplicate,
-                       ActionId::Delete,
-                       ActionId::Rename,
-                       ActionId::Group,
-                       gap,
-                       ActionId::Hide,
-                       ActionId::ShowAll,
-                       gap,
-                       ActionId::SelectAll,
-                       ActionId::SelectNone,
-                       gap,
-                       ActionId::ToolSelect,
-                       ActionId::ToolMove,
-                       ActionId::ToolRotate,
-                       ActionId::ToolScale,
-                       gap,
-                       ActionId::Commands});
-    fill(tr("&Add"), {ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder, ActionId::AddCone,
-                      ActionId::AddDisc, gap, ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight,
-                      ActionId::AddLuminaire, ActionId::AddSun, ActionId::AddDaylight, gap, ActionId::AddCamera});
-    auto* view = fill(tr("&View"),
-                      {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap, ActionId::ExposureUp,
-                       ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::ShowDirect, ActionId::ShowDiffuse,
-                       ActionId::ShowCaustic, gap, ActionId::Wireframe, ActionId::CutWalls, gap, ActionId::InspectCaustics,
-                       ActionId::CausticBoxes, ActionId::TexelGrid, ActionId::ParticleLandings});
+    auto* edit = fill(tr("&Edit"), {ActionId::Undo,
+                                    ActionId::Redo,
+                                    gap,
+                                    ActionId::Cut,
+                                    ActionId::Copy,
+                                    ActionId::Paste,
+                                    ActionId::PasteInPlace,
+                                    ActionId::CopyMaterial,
+                                    ActionId::PasteMaterial,
+                                    gap,
+                                    ActionId::Duplicate,
+                                    ActionId::Delete,
+                                    ActionId::Rename,
+                                    ActionId::Group,
+                                    gap,
+                                    ActionId::Hide,
+                                    ActionId::ShowAll,
+                                    ActionId::Isolate,
+                                    ActionId::Lock,
+                                    gap,
+                                    ActionId::SelectAll,
+                                    ActionId::SelectNone,
+                                    gap,
+                                    ActionId::ToolSelect,
+                                    ActionId::ToolMove,
+                                    ActionId::ToolRotate,
+                                    ActionId::ToolScale,
+                                    ActionId::DropToSurface,
+                                    gap,
+                                    ActionId::Commands});
+    fill_snapping_menu(edit->addMenu(tr("Sna&pping")));
+    fill(tr("&Add"),
+         {ActionId::Library, gap, ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder,
+          ActionId::AddCone, ActionId::AddDisc, gap, ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight,
+          ActionId::AddLuminaire, ActionId::AddSun, ActionId::AddDaylight, gap, ActionId::AddCamera});
+    auto* view = fill(tr("&View"), {ActionId::FrameSelection,
+                                    ActionId::FrameAll,
+                                    ActionId::WalkMode,
+                                    ActionId::OrbitSelection,
+                                    gap,
+                                    ActionId::ExposureUp,
+                                    ActionId::ExposureDown,
+                                    ActionId::ExposureReset,
+                                    gap,
+                                    ActionId::ShowDirect,
+                                    ActionId::ShowDiffuse,
+                                    ActionId::ShowCaustic,
+                                    gap,
+                                    ActionId::Wireframe,
+                                    ActionId::CutWalls,
+                                    gap,
+                                    ActionId::InspectCaustics,
+                                    ActionId::CausticBoxes,
+                                    ActionId::TexelGrid,
+                                    ActionId::ParticleLandings});
     auto* ways = view->addMenu(tr("Ca&ustics Shown As"));
     for (const auto& [id, way] : kWays) {
         ways->addAction(a[id]);
     }
+    fill_camera_menu(view->addMenu(tr("Ca&meras")));
     view->addSeparator();
     docks_menu_ = view->addMenu(tr("&Panels"));
     const QList<QDockWidget*> docks = findChildren<QDockWidget*>(QString(), Qt::FindDirectChildrenOnly);
@@ -302,7 +327,10 @@ void MainWindow::make_tool_bar() {
         group->addAction(a[id]);
         bar->addAction(a[id]);
     }
+    bar->addAction(a[ActionId::Snap]);
+    bar->addAction(a[ActionId::SlideOnSurfaces]);
     bar->addSeparator();
+    add({ActionId::Library});
     add({ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder, ActionId::AddPolygon});
     add({ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight});
     add({ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, ActionId::Wireframe});
@@ -336,8 +364,12 @@ void MainWindow::make_status_bar() {
             dock->raise();
         }
     });
-    for (QWidget* widget :
-         std::initializer_list<QWidget*>{busy_text_, busy_bar_, busy_cancel_, problems_badge_, new LightBadge(*engine_)}) {
+    snap_badge_ = new QToolButton;
+    snap_badge_->setObjectName(QStringLiteral("snap_badge"));
+    snap_badge_->setAutoRaise(true);
+    snap_badge_->hide();
+    for (QWidget* widget : std::initializer_list<QWidget*>{busy_text_, busy_bar_, busy_cancel_, snap_badge_, problems_badge_,
+                                                           new LightBadge(*engine_)}) {
         statusBar()->addPermanentWidget(widget);
     }
     for (QWidget* widget : std::initializer_list<QWidget*>{busy_text_, busy_bar_, busy_cancel_}) {
@@ -536,7 +568,9 @@ void MainWindow::update_actions() {
     name(ActionId::Redo, undo->canRedo(), tr("&Redo"), undo->redoText());
     const bool selected = !document_.selection()->nodes().empty();
     const bool walking = viewport_->walk_mode();
-    for (const ActionId id : {ActionId::Duplicate, ActionId::Delete, ActionId::Rename, ActionId::Group}) {
+    for (const ActionId id :
+         {ActionId::Cut, ActionId::Copy, ActionId::CopyMaterial, ActionId::PasteMaterial, ActionId::Lock,
+          ActionId::DropToSurface, ActionId::Duplicate, ActionId::Delete, ActionId::Rename, ActionId::Group}) {
         (*actions_)[id]->setEnabled(selected);
     }
     (*actions_)[ActionId::Hide]->setEnabled(selected && !walking);

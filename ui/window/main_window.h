@@ -23,6 +23,7 @@ class CausticPanel;
 class EditController;
 class FileController;
 class ImportBar;
+class LibraryPanel;
 class PhotometryController;
 class PropertiesPanel;
 class SceneTreePanel;
@@ -43,10 +44,14 @@ public:
     [[nodiscard]] ViewportWidget& viewport() { return *viewport_; }
     [[nodiscard]] FileController& files() { return *files_; }
     [[nodiscard]] SceneTreePanel& tree() { return *tree_; }
+    [[nodiscard]] LibraryPanel& library() { return *library_; }
     [[nodiscard]] PhotometryController& photometry() { return *photometry_; }
     [[nodiscard]] CausticPanel& caustics() { return *caustics_; }
     [[nodiscard]] Recovery& recovery() { return *recovery_; }
     [[nodiscard]] QAction* action(ActionId id) const;
+
+Q_SIGNALS:
+    void snapping_steps_changed();
 
 protected:
     void closeEvent(QCloseEvent* event) override;
@@ -62,6 +67,13 @@ private:
     void connect_files();
     void connect_edit();
     void connect_view();
+    void make_library();
+    void make_snapping();
+    void fill_snapping_menu(QMenu* menu);
+    void fill_camera_menu(QMenu* menu);
+    void look_through(NodeId camera);
+    void step_camera(int step);
+    void connect_editing();
     void connect_documents();
     void update_title();
     void update_actions();
@@ -86,6 +98,9 @@ private:
     QStackedWidget* pages_ = nullptr;
     SceneTreePanel* tree_ = nullptr;
     PropertiesPanel* properties_ = nullptr;
+    LibraryPanel* library_ = nullptr;
+    QToolButton* snap_badge_ = nullptr;
+    NodeId camera_; ///< looked through last
     CausticPanel* caustics_ = nullptr;
     QMenu* recent_menu_ = nullptr;
     QMenu* docks_menu_ = nullptr;

@@ -18,6 +18,12 @@ const QString kPhotometryFolder = QStringLiteral("files/photometry_folder");
 const QString kDirect = QStringLiteral("view/direct_light");
 const QString kDiffuse = QStringLiteral("view/diffuse_light");
 const QString kCaustic = QStringLiteral("view/caustics");
+const QString kSnapOn = QStringLiteral("snap/on");
+constexpr const char* kSnapGrid = "snap/grid_metres";
+constexpr const char* kSnapAngle = "snap/angle_degrees";
+const QString kSnapSurfaces = QStringLiteral("snap/slide_on_surfaces");
+const QString kSnapTurn = QStringLiteral("snap/turn_to_surface");
+const QString kFurniture = QStringLiteral("library/furniture_folder");
 } // namespace
 
 QString shares_text(const LightShares& shares) {
@@ -88,5 +94,34 @@ void Settings::set_light_shares(const LightShares& shares) {
     settings.setValue(kDiffuse, shares.diffuse);
     settings.setValue(kCaustic, shares.caustic);
 }
+
+Snapping Settings::snapping() const {
+    const QSettings settings;
+    const Snapping plain;
+    // Steps that somebody wrote by hand must not divide by zero.
+    const auto step = [&](const char* key, double otherwise) {
+        const double value = settings.value(QLatin1StringView(key), otherwise).toDouble();
+        return value > 1e-4 && value < 1e3 ? value : otherwise;
+    };
+    Snapping out;
+    out.on = settings.value(kSnapOn, false).toBool();
+    out.grid = step(kSnapGrid, plain.grid);
+    out.angle = radians_from_degrees(step(kSnapAngle, degrees_from_radians(plain.angle)));
+    out.on_surfaces = settings.value(kSnapSurfaces, false).toBool();
+    out.turn_to_surface = settings.value(kSnapTurn, false).toBool();
+    return out;
+}
+
+void Settings::set_snapping(const Snapping& snapping) {
+    QSettings settings;
+    settings.setValue(kSnapOn, snapping.on);
+    settings.setValue(QLatin1StringView(kSnapGrid), snapping.grid);
+    settings.setValue(QLatin1StringView(kSnapAngle), degrees_from_radians(snapping.angle));
+    settings.setValue(kSnapSurfaces, snapping.on_surfaces);
+    settings.setValue(kSnapTurn, snapping.turn_to_surface);
+}
+
+QString Settings::furniture_folder() const { return QSettings().value(kFurniture).toString(); }
+void Settings::set_furniture_folder(const QString& folder) { QSettings().setValue(kFurniture, folder); }
 
 } // namespace atrium::ui

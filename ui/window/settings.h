@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/layers/surface_layer.h"
+#include "ui/tools/snapping.h"
 
 #include <QByteArray>
 #include <QString>
@@ -27,6 +28,10 @@ public:
     void set_photometry_folder(const QString& folder);
     [[nodiscard]] LightShares light_shares() const; ///< what the view shows of the light; never nothing
     void set_light_shares(const LightShares& shares);
+    [[nodiscard]] Snapping snapping() const;
+    void set_snapping(const Snapping& snapping);
+    [[nodiscard]] QString furniture_folder() const; ///< of the library; empty = none chosen
+    void set_furniture_folder(const QString& folder);
 };
 
 } // namespace atrium::ui
