@@ -92,6 +92,12 @@ std::vector<OptionHelp> in_group(const std::vector<OptionHelp>& options, const s
     return out;
 }
 
+/// Every command has --help; told once it is enough.
+std::vector<OptionHelp> without_help(std::vector<OptionHelp> options) {
+    std::erase_if(options, [](const OptionHelp& option) { return option.names.back() == "--help"; });
+    return options;
+}
+
 std::string upper(std::string text) {
     for (char& c : text) {
         c = c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
@@ -100,7 +106,7 @@ std::string upper(std::string text) {
 }
 
 /// `case` arms that complete the values of options and know which options take one.
-std::string value_cases(const std::vector<OptionHelp>& options, const char* indent) {
+std::string value_cases(const std::vector<OptionHelp>& options, const std::string& indent) {
     std::string out;
     for (const OptionHelp& option : options) {
         if (option.value.empty() && option.choices.empty()) {
@@ -126,7 +132,7 @@ std::string names_of(const std::vector<OptionHelp>& options) {
 /// What is offered within one command: values, options, scene files.
 std::string complete_command(const CommandHelp& command, const char* indent) {
     std::string out;
-    if (const std::string cases = value_cases(command.options, "    "); !cases.empty()) {
+    if (const std::string cases = value_cases(command.options, std::string(indent) + "    "); !cases.empty()) {
         out += fmt::format("{}case $prev in\n{}{}esac\n", indent, cases, indent);
     }
     out += fmt::format("{0}if [[ $cur == -* ]]; then\n"
@@ -162,7 +168,7 @@ std::string manual_page(const ProgramHelp& help, const std::string& version) {
         for (const CommandHelp& command : help.commands) {
             out += ".SS " + escaped(command.name) + "\n" + paragraphs(command.text);
             add_options(out, command.arguments);
-            add_options(out, in_group(command.options, ""));
+            add_options(out, without_help(in_group(command.options, "")));
             for (const std::string& group : groups_of(help)) {
                 if (!in_group(command.options, group).empty()) {
                     out += ".PP\nTakes the options under " + upper(escaped(group)) + " too.\n";

@@ -5,7 +5,9 @@ find_program(RSVG_CONVERT rsvg-convert)
 
 set(CPACK_PACKAGE_NAME atrium)
 set(CPACK_PACKAGE_VENDOR "The Atrium developers")
-set(CPACK_PACKAGE_CONTACT "The Atrium developers <atrium@localhost>")
+set(ATRIUM_PACKAGE_CONTACT "The Atrium developers <atrium@example.org>" CACHE STRING
+    "Name and address of whoever publishes the package")
+set(CPACK_PACKAGE_CONTACT "${ATRIUM_PACKAGE_CONTACT}")
 set(packaging ${CMAKE_CURRENT_LIST_DIR})
 set(made ${CMAKE_BINARY_DIR}/packaging)
 file(MAKE_DIRECTORY ${made})
