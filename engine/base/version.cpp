@@ -1,6 +1,6 @@
 #include "engine/base/version.h"
 
-#include "atrium_commit.h" // written by packaging/write_commit.cmake
+#include <atrium_commit.h> // written by packaging/write_commit.cmake
 
 namespace atrium {
 
