@@ -332,10 +332,11 @@ def slit(f):
     f.camera(translation=[0.0, 0.5, 2.0])
 
 
-@small
-def grazing(f):
+@variants(grazing=0.0, setting_sun=0.53)
+def grazing(f, degrees):
     f.thing("Table", floor(10, 10), f.material("grey", matt(0.0)))
     f.sun(100000.0, 0.1)
+    f.json["extensions"]["KHR_lights_punctual"]["lights"][0]["extras"] = {"angularDiameterDegrees": degrees}
     f.camera(translation=[0.0, 1.0, 4.0])
 
 
@@ -444,7 +445,7 @@ def far_vertices(f):
     f.camera(translation=[1e6, 1.5, 1.5])
 
 
-@variants(millimetre=2.5e-4, ten_kilometres=2.5e3)
+@variants(millimetre=2.5e-4, ten_kilometres=3e3)
 def scaled(f, scale):
     f.cie53(scale)
 

@@ -44,8 +44,10 @@ struct Wrong {
 void look_at(const Solution& solution, Wrong& wrong) {
     for (const auto& layer : solution.surfaces) {
         const DisplayMesh& mesh = *layer->mesh;
-        for (const vec3& p : mesh.positions) {
-            wrong.not_finite += is_finite(p) ? 0 : 1;
+        for (const auto* places : {&mesh.positions, &mesh.normals}) {
+            for (const vec3& p : *places) {
+                wrong.not_finite += is_finite(p) ? 0 : 1;
+            }
         }
         for (const bool back : {false, true}) {
             if (back && !layer->has_back()) {

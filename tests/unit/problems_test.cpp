@@ -301,5 +301,39 @@ TEST(ImportFixVeto, AnEmptyOrHiddenSceneGetsNone) {
     EXPECT_FALSE(suggest_import_fix(hidden).any());
 }
 
+TEST(Problems, coarse_coordinates_of_a_mesh_far_from_its_origin_are_told) {
+    for (const float away : {1e3F, 1e6F}) {
+        Scene scene;
+        auto data = std::make_shared<MeshData>();
+        data->positions = {{away, 0, 0}, {away + 4, 0, 0}, {away, 0, 4}};
+        data->indices = {0, 1, 2};
+        data->parts = {{0, 3}};
+        Shape shape;
+        shape.geometry = Mesh{data};
+        Node node;
+        node.name = "Site";
+        node.shape = scene.shapes.insert(shape);
+        scene.roots.push_back(scene.nodes.insert(node));
+        const auto found = find_problems(scene);
+        const bool told = std::any_of(found.begin(), found.end(), [](const Problem& p) {
+            return p.what.find("steps of 62.5 mm") != std::string::npos && p.where.find("Site") != std::string::npos;
+        });
+        EXPECT_EQ(told, away > 1e5F) << away;
+    }
+}
+
+TEST(Problems, a_camera_of_no_size_is_told) {
+    Scene scene;
+    Node node;
+    node.name = "Flat camera";
+    node.camera = scene.cameras.insert(Camera{});
+    node.transform.scale = dvec3(1.0, 0.0, 1.0);
+    scene.roots.push_back(scene.nodes.insert(node));
+    const auto found = find_problems(scene);
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const Problem& p) {
+        return p.what.find("its camera has no direction") != std::string::npos;
+    }));
+}
+
 } // namespace
 } // namespace atrium
