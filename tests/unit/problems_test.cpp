@@ -301,9 +301,9 @@ TEST(ImportFixVeto, AnEmptyOrHiddenSceneGetsNone) {
     EXPECT_FALSE(suggest_import_fix(hidden).any());
 }
 
-TEST(Problems, coarse_coordinates_of_a_mesh_far_from_its_origin_are_told) {
+TEST_F(Problems, CoarseCoordinatesOfAMeshFarFromItsOriginAreTold) {
     for (const float away : {1e3F, 1e6F}) {
-        Scene scene;
+        Scene site;
         auto data = std::make_shared<MeshData>();
         data->positions = {{away, 0, 0}, {away + 4, 0, 0}, {away, 0, 4}};
         data->indices = {0, 1, 2};
@@ -312,9 +312,9 @@ TEST(Problems, coarse_coordinates_of_a_mesh_far_from_its_origin_are_told) {
         shape.geometry = Mesh{data};
         Node node;
         node.name = "Site";
-        node.shape = scene.shapes.insert(shape);
-        scene.roots.push_back(scene.nodes.insert(node));
-        const auto found = find_problems(scene);
+        node.shape = site.shapes.insert(shape);
+        site.roots.push_back(site.nodes.insert(node));
+        const auto found = find_problems(site);
         const bool told = std::any_of(found.begin(), found.end(), [](const Problem& p) {
             return p.what.find("steps of 62.5 mm") != std::string::npos && p.where.find("Site") != std::string::npos;
         });
@@ -322,14 +322,14 @@ TEST(Problems, coarse_coordinates_of_a_mesh_far_from_its_origin_are_told) {
     }
 }
 
-TEST(Problems, a_camera_of_no_size_is_told) {
-    Scene scene;
+TEST_F(Problems, ACameraOfNoSizeIsTold) {
+    Scene site;
     Node node;
     node.name = "Flat camera";
-    node.camera = scene.cameras.insert(Camera{});
+    node.camera = site.cameras.insert(Camera{});
     node.transform.scale = dvec3(1.0, 0.0, 1.0);
-    scene.roots.push_back(scene.nodes.insert(node));
-    const auto found = find_problems(scene);
+    site.roots.push_back(site.nodes.insert(node));
+    const auto found = find_problems(site);
     EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const Problem& p) {
         return p.what.find("its camera has no direction") != std::string::npos;
     }));
