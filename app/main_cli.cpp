@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
         add_reference(app, status);
         add_compare(app, status);
         add_inspect(app, status);
+        add_bench(app, status);
         add_convert(app, status);
         if (argc == 2 && write_documents(app, argv[1])) {
             return kDone;

@@ -13,9 +13,9 @@
 namespace atrium {
 namespace {
 
-constexpr double kDark = 0.05;            // of the mean: darker places count as that bright
-constexpr std::uint64_t kFirstPaths = 64; // per point, to learn how noisy the truth is
-constexpr double kNoiseShare = 0.15;      // of the error's square that noise may stand for
+constexpr float kSeen = 0.1F;       // of what a place sees must be farther than 5 cm: LitPlace::open
+constexpr double kDark = 0.05;      // of the mean: darker places count as that bright
+constexpr double kNoiseShare = 0.1; // of the error's square that noise may stand for
 constexpr int kResamples = 400;
 
 struct Comparison {
@@ -38,14 +38,19 @@ Comparison compare(const std::vector<SensorReading>& ours, const std::vector<Ref
     double sum = 0.0;
     double true_sum = 0.0;
     double variance = 0.0;
+    std::vector<std::size_t> used; // where the truth is that of the same surface: not where two lie back to back
     for (std::size_t i = 0; i < ours.size(); ++i) {
+        if (!truth[i].on_surface) {
+            continue;
+        }
+        used.push_back(i);
         sum += luminance(ours[i].irradiance);
         true_sum += luminance(truth[i].irradiance);
         variance += truth[i].standard_error * truth[i].standard_error;
     }
-    const double floor = kDark * true_sum / double(ours.size());
+    const double floor = kDark * true_sum / double(std::max<std::size_t>(used.size(), 1));
     double noise = 0.0;
-    for (std::size_t i = 0; i < ours.size(); ++i) {
+    for (const std::size_t i : used) {
         const double e = luminance(ours[i].irradiance);
         const double r = luminance(truth[i].irradiance);
         const double s = truth[i].standard_error;
@@ -58,7 +63,7 @@ Comparison compare(const std::vector<SensorReading>& ours, const std::vector<Ref
         // Variance of (d + noise)^2 - s^2 about d^2.
         noise += 2.0 * rest * rest + 4.0 * rest * std::max(out.squares.back(), 0.0);
     }
-    out.noise = std::sqrt(noise) / double(ours.size());
+    out.noise = std::sqrt(noise) / double(std::max<std::size_t>(used.size(), 1));
     if (true_sum > 0.0) {
         out.bias = sum / true_sum - 1.0;
         out.bias_error = std::sqrt(variance) / true_sum;
@@ -86,9 +91,9 @@ void bootstrap(const std::vector<double>& values, std::uint32_t seed, double& lo
 
 AuditSettings audit_settings(SolverSettings::Quality quality) {
     switch (quality) {
-    case SolverSettings::Quality::Draft: return {256, 128, 1};
-    case SolverSettings::Quality::Normal: return {512, 512, 1};
-    case SolverSettings::Quality::Fine: return {1024, 4096, 1};
+    case SolverSettings::Quality::Draft: return {256, 128, 256};
+    case SolverSettings::Quality::Normal: return {512, 256, 1024};
+    case SolverSettings::Quality::Fine: return {1024, 512, 4096};
     }
     return {};
 }
@@ -102,21 +107,25 @@ Result<ErrorAudit> audit_error(const Scene& scene, const Solution& solution, con
         const RayScene rays(scene);
         const PathTracer tracer(scene, rays);
         for (const LitPlace& place : lit_places(rays, tracer, settings.points, 0xAD17U + settings.seed)) {
-            places.push_back({place.position, place.normal});
-            points.push_back({place.position, place.normal});
+            if (place.open >= kSeen) {
+                places.push_back({place.position, place.normal});
+                points.push_back({place.position, place.normal});
+            }
         }
     }
-    if (places.empty()) {
+    const auto nothing = [] {
         return fail("", "", "there is nothing to compare: light reaches no surface that scatters it",
                     "Add a lamp, daylight or a matt surface.");
+    };
+    if (places.empty()) {
+        return nothing();
     }
     const std::vector<SensorReading> ours = read_surfaces(scene, solution, places);
     ErrorAudit out;
-    out.points = std::uint32_t(places.size());
     Comparison found;
     ReferenceSettings wanted;
     wanted.seed = std::uint32_t(hash_combine(0xE44ULL, settings.seed));
-    std::uint64_t paths = std::min(kFirstPaths, settings.most_paths);
+    std::uint64_t paths = std::min(settings.least_paths, settings.most_paths);
     for (;;) { // a quick look first, then as long as its noise and its error ask for
         wanted.paths = paths;
         auto truth = reference_irradiance(scene, points, wanted, context);
@@ -129,15 +138,23 @@ Result<ErrorAudit> audit_error(const Scene& scene, const Solution& solution, con
         found = compare(ours, truth->points);
         out.paths = truth->run.paths;
         out.rays += truth->run.rays;
+        const double per_path = double(truth->run.rays) / double(truth->run.paths);
+        const auto affordable =
+            std::uint64_t(std::max(settings.ray_share * double(solution.statistics.rays), 1e6) / per_path);
+        const std::uint64_t most = std::min(settings.most_paths, affordable);
         const double allowed = kNoiseShare * std::max(mean_of(found.squares), 0.0);
-        if (found.noise <= allowed || paths >= settings.most_paths) {
+        if (found.noise <= allowed || paths >= most) {
             break;
         }
         // Noise of a square falls with the number of paths.
-        const double more = allowed > 0.0 ? found.noise / allowed : double(settings.most_paths);
-        paths = std::min(settings.most_paths, std::max(2 * paths, std::uint64_t(double(paths) * std::min(more, 1e6))));
+        const double more = allowed > 0.0 ? std::clamp(found.noise / allowed, 2.0, 1e6) : 1e6;
+        paths = std::min(most, std::uint64_t(double(paths) * more));
         ++wanted.seed;
     }
+    if (found.squares.empty()) {
+        return nothing();
+    }
+    out.points = std::uint32_t(found.squares.size());
     double low = 0.0;
     double high = 0.0;
     bootstrap(found.squares, settings.seed, low, high);

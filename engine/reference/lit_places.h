@@ -13,6 +13,9 @@ struct LitPlace {
     dvec3 position{0.0};         ///< metres, world
     dvec3 normal{0.0, 1.0, 0.0}; ///< unit, of the side: the smooth normal of curved things, as they are shown
     NodeId node;
+    /// Share of what it sees that is farther than 5 cm (in a room with a diagonal of 10 m, else in proportion), weighted by
+    /// the cosine: small in gaps, such as between books or behind a lamp on the ceiling, into which nobody looks.
+    float open = 1.0F;
 };
 
 /// Up to `count` random places, evenly by area over both sides where both have light; the same ones for the same scene,
