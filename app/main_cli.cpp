@@ -1,6 +1,8 @@
 // atrium-cli: the engine without the editor. Subcommands are in cli_<name>.cpp.
 #include "app/cli_commands.h"
+#include "app/cli_manual.h"
 #include "app/cli_support.h"
+#include "engine/base/version.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -10,13 +12,26 @@
 #include <new>
 #include <sstream>
 
+namespace {
+
+/// For the build: the manual page and the completion, from the same tables as --help. False: something else was asked for.
+bool write_documents(const CLI::App& app, const std::string& request) {
+    using namespace atrium;
+    if (request == "--write-manual-page") {
+        return cli::write_text("-", app::manual_page(cli::program_help(app), version_number())).has_value();
+    }
+    return request == "--write-completion" && cli::write_text("-", app::bash_completion(cli::program_help(app))).has_value();
+}
+
+} // namespace
+
 int main(int argc, char** argv) {
     using namespace atrium::cli;
     install_signal_handlers();
     CLI::App app("Global illumination of interiors from the command line.\n"
                  "Exit status: 0 done, 1 wrong input or request, 2 stopped but wrote what it had, 3 internal error.",
                  "atrium-cli");
-    app.set_version_flag("--version", "atrium-cli " ATRIUM_VERSION);
+    app.set_version_flag("--version", "atrium-cli " + atrium::version_text());
     app.require_subcommand(1);
     int status = kDone;
     try {
@@ -31,6 +46,9 @@ int main(int argc, char** argv) {
         add_inspect(app, status);
         add_bench(app, status);
         add_convert(app, status);
+        if (argc == 2 && write_documents(app, argv[1])) {
+            return kDone;
+        }
         app.parse(argc, argv);
     } catch (const CLI::Success& success) { // --help, --version
         return app.exit(success);

@@ -1,4 +1,6 @@
 // The editor: atrium [FILE]. With --screenshot FILE.png it opens, waits for the light, takes its own picture and quits.
+#include "app/program_help.h"
+#include "engine/base/version.h"
 #include "ui/window/file_controller.h"
 #include "ui/window/main_window.h"
 
@@ -7,11 +9,14 @@
 #include <QCommandLineParser>
 #include <QDockWidget>
 #include <QFileInfo>
+#include <QIcon>
 #include <QSurfaceFormat>
 #include <QTextStream>
 #include <QTimer>
 
 #include <clocale>
+#include <cstdio>
+#include <string_view>
 
 namespace {
 
@@ -53,9 +58,44 @@ private:
     bool taken_ = false;
 };
 
+/// Whether only text is asked for, so that no display is needed.
+bool asks_for_text(int argc, char** argv) {
+    const std::string_view first = argc > 1 ? argv[1] : "";
+    return first == "--help" || first == "-h" || first == "--version" || first == "-v" || first == "--write-manual-page" ||
+           first == "--write-completion";
+}
+
+/// All that --help tells.
+atrium::app::ProgramHelp program_help(const QCommandLineParser& parser, const QList<QCommandLineOption>& options) {
+    atrium::app::ProgramHelp out;
+    out.name = "atrium";
+    out.summary = "edit interiors with live global illumination";
+    out.description =
+        QStringLiteral("%1\nWithout a file it opens its start page. Scenes are glTF 2.0 (.gltf, .glb) and Atrium projects "
+                       "(.atrium), which keep their light.")
+            .arg(parser.applicationDescription())
+            .toStdString();
+    out.own.arguments.push_back({{"FILE"}, "", {}, "scene to open: .gltf, .glb or .atrium", ""});
+    for (const QCommandLineOption& option : options) {
+        atrium::app::OptionHelp help;
+        for (const QString& name : option.names()) {
+            help.names.push_back((name.size() == 1 ? "-" : "--") + name.toStdString());
+        }
+        help.value = option.valueName().toStdString();
+        help.text = option.description().toStdString();
+        out.own.options.push_back(help);
+    }
+    out.see_also = {"atrium-cli"};
+    return out;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
+    if (asks_for_text(argc, argv)) {
+        qputenv("QT_QPA_PLATFORM", "offscreen");
+        qputenv("QT_LOGGING_RULES", "qt.*=false"); // nothing but that text: not what an absent desktop lacks
+    }
     QSurfaceFormat format;
     format.setVersion(3, 3);
     format.setProfile(QSurfaceFormat::CoreProfile);
@@ -65,14 +105,16 @@ int main(int argc, char** argv) {
     std::setlocale(LC_NUMERIC, "C"); // Qt has set the user's locale; libraries that print numbers must not follow it
     QCoreApplication::setOrganizationName(QStringLiteral("Atrium"));
     QCoreApplication::setApplicationName(QStringLiteral("atrium"));
-    QCoreApplication::setApplicationVersion(QLatin1StringView(ATRIUM_VERSION));
+    QCoreApplication::setApplicationVersion(QString::fromStdString(atrium::version_text()));
     QGuiApplication::setApplicationDisplayName(QString());
     QGuiApplication::setDesktopFileName(QStringLiteral("atrium"));
 
+    QGuiApplication::setWindowIcon(QIcon(QStringLiteral(":/atrium.svg")));
+
     QCommandLineParser parser;
     parser.setApplicationDescription(QObject::tr("Edit interiors with live global illumination."));
-    parser.addHelpOption();
-    parser.addVersionOption();
+    const QCommandLineOption help = parser.addHelpOption();
+    const QCommandLineOption version = parser.addVersionOption();
     parser.addPositionalArgument(QStringLiteral("FILE"), QObject::tr("scene to open: .gltf, .glb or .atrium"),
                                  QStringLiteral("[FILE]"));
     const QCommandLineOption screenshot(QStringLiteral("screenshot"),
@@ -93,7 +135,15 @@ int main(int argc, char** argv) {
                                      QObject::tr("run a command of the menus by its name (caustic_boxes, wireframe, ...) "
                                                  "once the file is open; may be repeated"),
                                      QStringLiteral("NAME"));
-    parser.addOptions({screenshot, wait, size, sample, select, panel, command});
+    const QList<QCommandLineOption> options{screenshot, wait, size, sample, select, panel, command};
+    parser.addOptions(options);
+    if (argc == 2 && std::string_view(argv[1]).substr(0, 8) == "--write-") { // for the build, from the same tables as --help
+        const auto told = program_help(parser, QList<QCommandLineOption>{help, version} + options);
+        const std::string text = std::string_view(argv[1]) == "--write-manual-page"
+                                     ? atrium::app::manual_page(told, atrium::version_number())
+                                     : atrium::app::bash_completion(told);
+        return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() ? 0 : 1;
+    }
     parser.process(app);
 
     atrium::ui::MainWindow window;

@@ -8,10 +8,13 @@ die() {
     exit 1
 }
 
-# Names in packaging/dependencies that are not installed.
+# Lists of packages that install_packages installs.
+package_lists=("$root/packaging/dependencies")
+
+# Names in package_lists that are not installed.
 missing_packages() {
     local name
-    sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "$root/packaging/dependencies" | while read -r name; do
+    sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "${package_lists[@]}" | while read -r name; do
         # Node is often there from elsewhere, and Debian's npm brings hundreds of packages.
         case "$name" in
         nodejs) command -v node >/dev/null && continue ;;
@@ -28,7 +31,7 @@ install_packages() {
     local missing
     mapfile -t missing < <(missing_packages)
     if [ "${#missing[@]}" -eq 0 ]; then
-        say "Packages: all of packaging/dependencies are installed"
+        say "Packages: all of ${package_lists[*]#"$root/"} are installed"
         return
     fi
     say "Packages: installing ${missing[*]}"

@@ -12,4 +12,4 @@ namespace atrium::detail {
 } // namespace atrium::detail
 
 #define ATRIUM_CHECK(expression)                                                                                            \
-    ((expression) ? static_cast<void>(0) : ::atrium::detail::check_failed(#expression, __FILE__, __LINE__))
+    ((expression) ? static_cast<void>(0) : ::atrium::detail::check_failed(#expression, __FILE_NAME__, __LINE__))

@@ -1,6 +1,7 @@
 // KHR_lights_punctual and cameras -> Light, Camera.
 #include "engine/io/gltf_extensions.h"
 #include "engine/io/gltf_read_context.h"
+#include "engine/scene/light_limits.h"
 
 #include <fmt/format.h>
 
@@ -49,7 +50,11 @@ bool read_light(ReadContext& context, const Json& json, Light& light, const std:
         return false;
     }
     light.color = glm::max(number3(json, "color", Rgb(1.0F), where), Rgb(0.0F));
-    light.intensity = clamped(context, json, "intensity", 1.0F, 0.0F, std::numeric_limits<float>::max(), where);
+    light.intensity = clamped(context, json, "intensity", 1.0F, 0.0F, kMaxLight, where);
+    if (const float most = max_component(light.color); most > 1.0F && double(most) * light.intensity > double(kMaxLight)) {
+        context.warn(where, fmt::format("a colour of {} was set to 1: with it the light would be too strong", most));
+        light.color /= most;
+    }
     if (json.contains("range")) {
         context.count("lights have a range, which is ignored: light does not end at a distance");
     }

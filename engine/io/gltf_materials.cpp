@@ -1,6 +1,7 @@
 // glTF materials with their KHR extensions -> Material. What we do not interpret is kept as text for saving.
 #include "engine/io/gltf_extensions.h"
 #include "engine/io/gltf_read_context.h"
+#include "engine/scene/light_limits.h"
 
 #include <fmt/format.h>
 
@@ -78,17 +79,23 @@ void read_base(ReadContext& context, const Json& json, Material& material, const
         if (color->size() != 4) {
             refuse(where + "/baseColorFactor", "has " + std::to_string(color->size()) + " numbers, not 4");
         }
+        float worst = 0.0F;
+        float instead = 0.0F;
         for (std::size_t i = 0; i < 4; ++i) {
             if (!(*color)[i].is_number()) {
                 refuse(where + "/baseColorFactor", "holds something that is not a number");
             }
             const float value = (*color)[i].get<float>();
             const float good = std::fmin(std::fmax(value, 0.0F), 1.0F);
-            if (good != value) {
-                context.warn(where, fmt::format("a base colour of {} was set to {}", value, good),
-                             "A surface cannot reflect more light than falls on it.");
+            if (std::abs(good - value) > std::abs(instead - worst)) {
+                worst = value;
+                instead = good;
             }
             (i < 3 ? material.base_color[int(i)] : material.alpha) = good;
+        }
+        if (worst != instead) { // once, whatever the number of channels
+            context.warn(where, fmt::format("a base colour of {} was set to {}", worst, instead),
+                         "A surface cannot reflect more light than falls on it.");
         }
     }
     material.metallic = clamped(context, pbr, "metallicFactor", 1.0F, 0.0F, 1.0F, where);
@@ -122,6 +129,12 @@ void read_emission(ReadContext& context, const Json& json, Material& material, c
         context.warn(where, "an emissive colour above 1 was moved into the emissive strength; the light is the same");
         material.emissive_color /= most;
         material.emissive_strength *= most;
+    }
+    if (!(material.emissive_strength <= kMaxLight)) {
+        context.warn(where,
+                     fmt::format("an emissive strength of {} was set to {} cd/m2", material.emissive_strength, kMaxLight),
+                     "The sun has 1.6e9 cd/m2.");
+        material.emissive_strength = kMaxLight;
     }
 }
 

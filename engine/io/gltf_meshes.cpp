@@ -344,6 +344,18 @@ std::string sharing_key(const Json& root, Json mesh) {
     return mesh.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// Triangles without area are part of the file and stay in it, but neither give nor take light.
+void count_flat(ReadContext& context, const MeshData& mesh) {
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const dvec3 a(mesh.positions[mesh.indices[i]]);
+        const dvec3 b(mesh.positions[mesh.indices[i + 1]]);
+        const dvec3 c(mesh.positions[mesh.indices[i + 2]]);
+        if (glm::cross(b - a, c - a) == dvec3(0.0)) {
+            context.count("triangles have no area: they are kept, but neither give nor take light");
+        }
+    }
+}
+
 } // namespace
 
 void read_meshes(ReadContext& context) {
@@ -367,6 +379,9 @@ void read_meshes(ReadContext& context) {
                 } else {
                     context.warn(where, std::string(kShape) + " is malformed; the mesh that stands for it is shown");
                 }
+            }
+            if (std::holds_alternative<Mesh>(shape.geometry)) {
+                count_flat(context, *loaded.stand_in.data);
             }
             if (!loaded.stand_in.data->parts.empty()) {
                 loaded.shape = context.out.scene.shapes.insert(std::move(shape));

@@ -115,7 +115,9 @@ private:
                 if (data.normals.empty()) {
                     vertex.normal = face_normal;
                     const dvec3 local = glm::transpose(dmat3(surface.to_engine)) * dvec3(face_normal);
-                    vertex.local_normal = vec3(glm::normalize(local));
+                    // A scale of zero in one axis leaves faces that the way back makes nothing of.
+                    const double length = glm::length(local);
+                    vertex.local_normal = length > 0.0 ? vec3(local / length) : face_normal;
                 } else {
                     vertex.local_normal = data.normals[v];
                     const dvec3 n = surface.normal_matrix * dvec3(data.normals[v]);
@@ -435,7 +437,7 @@ private:
                 layer->node = surface.node;
                 layer->part = surface.part;
                 std::unordered_map<std::uint32_t, std::uint32_t> index;
-                const auto map_of = [&](const auto& maps) { return maps.empty() ? nullptr : maps[s]; };
+                const auto map_of = [s = s](const auto& maps) { return maps.empty() ? nullptr : maps[s]; };
                 const bool charted = !maps_.charts.empty() && !maps_.charts[s].empty();
                 if (charted) {
                     layer->direct_map_front = map_of(maps_.front);

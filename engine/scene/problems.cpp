@@ -12,7 +12,10 @@ using Severity = Problem::Severity;
 
 constexpr double kMaxExtent = 1e4;  // metres: beyond, float coordinates leave form factors 0.2 % and more off
 constexpr double kMinExtent = 1e-3; // metres
+constexpr double kMinScene = 1e-2;  // metres: rays start 0.01 mm off surfaces, a thousandth of such a room
 constexpr double kFarFromOrigin = 1e4;
+constexpr double kLargestStep = 1e-3;        // metres between neighbouring coordinates: edges are seen to be off
+constexpr double kLargestShareOfSize = 1e-4; // and what is large may have coarser ones
 
 /// A number for a message: four digits, no trailing zeros.
 std::string number(double value) {
@@ -89,7 +92,11 @@ private:
         const bool shown = scene_.shown(id);
         check_ids(id, node, where);
         const dvec3& s = node.transform.scale;
-        if (shown && (s.x == 0.0 || s.y == 0.0 || s.z == 0.0) && has_shape_below(id)) {
+        const bool flat = s.x == 0.0 || s.y == 0.0 || s.z == 0.0;
+        if (flat && node.camera) {
+            add(Severity::Warning, id, where, "its scale is zero, so its camera has no direction", "Set the scale to 1");
+        }
+        if (shown && flat && has_shape_below(id)) {
             add(Severity::Warning, id, where, "its scale is zero, so it has no volume",
                 "Set the scale to 1 or hide the node");
         }
@@ -210,6 +217,20 @@ private:
         }
     }
 
+    // Single-precision vertices far from their own origin lie on a grid; doubles of the node's placement do not help.
+    void check_steps(NodeId id, const std::string& where, double largest) {
+        const Box3 local = local_bounds(scene_.shapes.find(scene_.nodes.find(id)->shape)->geometry);
+        const float far = std::max(max_component(glm::abs(local.min)), max_component(glm::abs(local.max)));
+        const double own_size = double(max_component(local.max - local.min));
+        const double step = own_size > 0.0 ? double(std::nextafter(far, INFINITY) - far) * largest / own_size : 0.0;
+        if (step > kLargestStep && step > kLargestShareOfSize * largest) {
+            add(Severity::Warning, id, where,
+                "its points lie far from its own origin, where their coordinates have steps of " + number(step * 1000.0) +
+                    " mm",
+                "Export it with its origin nearby and move the object instead");
+        }
+    }
+
     void measure(NodeId id, const std::string& where) {
         const DBox3 b = scene_.world_bounds(id);
         if (b.empty()) {
@@ -218,6 +239,7 @@ private:
         bounds_.add(b);
         const dvec3 size = b.size();
         const double largest = std::max({size.x, size.y, size.z});
+        check_steps(id, where, largest);
         if (largest < kMinExtent && largest > 0.0 && small_count_++ == 0) {
             first_small_ = id;
             first_small_name_ = where + " (" + number(largest * 1000.0) + " mm)";
@@ -235,8 +257,9 @@ private:
             add(Severity::Warning, {}, "scene",
                 "it extends over " + number(largest) + " m; light becomes inaccurate beyond 10 km",
                 "Check the unit of length, or delete what lies far outside");
-        } else if (largest < kMinExtent) {
-            add(Severity::Warning, {}, "scene", "it is only " + number(largest * 1000.0) + " mm large",
+        } else if (largest < kMinScene) {
+            add(Severity::Warning, {}, "scene",
+                "it is only " + number(largest * 1000.0) + " mm large; light becomes inaccurate below a centimetre",
                 "Check the unit of length: glTF is in metres");
         } else if (small_count_ > 0) {
             add(Severity::Note, first_small_, first_small_name_,

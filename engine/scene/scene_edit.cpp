@@ -1,6 +1,7 @@
 #include "engine/scene/scene_edit.h"
 
 #include "engine/base/checks.h"
+#include "engine/scene/light_limits.h"
 
 #include <algorithm>
 #include <iterator>
@@ -130,6 +131,9 @@ Result<void> check_value(const std::string& where, const Material& m) {
     if (!good) {
         return fail("", where, "a value of the material is not a finite number");
     }
+    if (max_component(m.emissive_color) * m.emissive_strength > kMaxLight) {
+        return fail("", where, "it emits more than 1e12 cd/m2", "The sun has 1.6e9 cd/m2.");
+    }
     return {};
 }
 Result<void> check_value(const std::string& /*where*/, const Texture& /*texture*/) { return {}; }
@@ -137,6 +141,9 @@ Result<void> check_value(const std::string& where, const Light& l) {
     if (!is_finite(l.color) || !finite(l.intensity) || !finite(l.inner_cone) || !finite(l.outer_cone) ||
         !finite(l.angular_diameter_degrees)) {
         return fail("", where, "a value of the light is not a finite number");
+    }
+    if (l.intensity > kMaxLight || max_component(l.color) * l.intensity > kMaxLight) {
+        return fail("", where, "its intensity is more than 1e12", "Set it in candela, or in lux for a sun.");
     }
     return {};
 }

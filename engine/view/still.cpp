@@ -177,6 +177,25 @@ private:
     LightShares shares_;
 };
 
+/// Right, up and back of a camera, unit and at right angles; those of its parent's space where the placement has none (a
+/// scale of zero, or axes that fall together).
+std::array<vec3, 3> camera_axes(const dmat4& to_world) {
+    dvec3 back(to_world[2]);
+    dvec3 up(to_world[1]);
+    const auto usable = [](const dvec3& v) { return std::isfinite(glm::dot(v, v)) && glm::dot(v, v) > 0.0; };
+    back = usable(back) ? glm::normalize(back) : dvec3(0.0, 0.0, 1.0);
+    up = usable(up) ? glm::normalize(up) : dvec3(0.0, 1.0, 0.0);
+    dvec3 right(to_world[0]);
+    // A shear is kept as it is; only what gives no picture at all is replaced.
+    right = usable(right) ? glm::normalize(right) : glm::cross(up, back);
+    if (std::abs(glm::dot(right, glm::cross(up, back))) < 1e-9) {
+        up = std::abs(back.y) < 0.9 ? dvec3(0.0, 1.0, 0.0) : dvec3(0.0, 0.0, -1.0);
+        right = glm::normalize(glm::cross(up, back));
+        up = glm::cross(back, right);
+    }
+    return {vec3(right), vec3(up), vec3(back)};
+}
+
 } // namespace
 
 Picture render_still(const Scene& scene, const Solution& solution, const ViewCamera& camera, const StillOptions& options,
@@ -188,10 +207,8 @@ Picture render_still(const Scene& scene, const Solution& solution, const ViewCam
     const LitScene lit(scene, solution);
     const EyeTracer tracer(lit, scene.environment.sky_radiance, options);
     const vec3 eye(dvec3(camera.to_world[3]) - lit.rays().origin());
-    const dmat3 axes(camera.to_world);
-    const vec3 right(glm::normalize(axes[0]));
-    const vec3 up(glm::normalize(axes[1]));
-    const vec3 forward(-glm::normalize(axes[2]));
+    const auto [right, up, back] = camera_axes(camera.to_world);
+    const vec3 forward = -back;
     const float aspect = float(out.width) / float(out.height);
     const float half_height = camera.lens.perspective ? std::tan(0.5F * camera.lens.yfov) : camera.lens.ymag;
     const int n = std::max(options.samples_per_axis, 1);

@@ -7,4 +7,7 @@ if(TARGET atrium-cli)
     set_tests_properties(cli.${group} PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77 ENVIRONMENT
       "ATRIUM_CLI=$<TARGET_FILE:atrium-cli>;ATRIUM_SOURCE_DIR=${CMAKE_SOURCE_DIR};ATRIUM_SHARED_DIR=${CMAKE_SOURCE_DIR}/../shared")
   endforeach()
+  add_test(NAME cli.Documents COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/documents.py -v)
+  set_tests_properties(cli.Documents PROPERTIES TIMEOUT 120 ENVIRONMENT
+    "ATRIUM_CLI=$<TARGET_FILE:atrium-cli>;ATRIUM_EDITOR=$<$<TARGET_EXISTS:atrium>:$<TARGET_FILE:atrium>>;ATRIUM_SOURCE_DIR=${CMAKE_SOURCE_DIR}")
 endif()

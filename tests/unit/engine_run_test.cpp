@@ -284,6 +284,48 @@ TEST(EngineRun, AnEyeInsideASolidSeesSomethingDefined) {
     }
 }
 
+TEST(EngineRun, ACameraOfNoSizeSeesSomethingDefined) {
+    const Scene scene = furnished();
+    const Solved s = solve(scene, Quality::Draft);
+    ASSERT_TRUE(s.solution);
+    StillOptions options;
+    options.width = options.height = 8;
+    for (const dvec3& scale : {dvec3(0.0), dvec3(1.0, 0.0, 1.0), dvec3(0.0, 1.0, 1.0), dvec3(1.0, 1.0, 0.0)}) {
+        ViewCamera camera;
+        for (int axis = 0; axis < 3; ++axis) {
+            camera.to_world[axis] *= scale[axis];
+        }
+        camera.to_world[3] = dvec4(2.0, 1.5, 2.0, 1.0);
+        double sum = 0.0;
+        for (const vec3& p : render_still(scene, *s.solution, camera, options, RunContext{}).pixels) {
+            EXPECT_TRUE(is_finite(p));
+            sum += double(p.y);
+        }
+        EXPECT_GT(sum, 0.0) << "the room is lit, and something of it is seen";
+    }
+}
+
+TEST(EngineRun, LightOnAFlattenedObjectCanBeKept) {
+    Scene scene = furnished();
+    const auto before = scene.roots.size();
+    auto data = std::make_shared<MeshData>();
+    data->positions = {{0, 0, 0}, {1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+    data->indices = {0, 1, 2, 0, 3, 1};
+    data->parts = {{0, 6}};
+    Shape shape;
+    shape.geometry = Mesh{data};
+    Node node;
+    node.shape = scene.shapes.insert(shape);
+    node.transform.scale = dvec3(1.0, 0.0, 1.0);
+    node.transform.translation = dvec3(1.0, 1.0, 1.0);
+    scene.roots.push_back(scene.nodes.insert(node));
+    ASSERT_EQ(scene.roots.size(), before + 1);
+    const Solved s = solve(scene, Quality::Draft);
+    ASSERT_TRUE(s.solution);
+    const auto kept = decode_solution(encode_solution(*s.solution, scene), scene);
+    EXPECT_TRUE(kept) << kept.error().message();
+}
+
 // X-RHO, X-RHO-GT1
 TEST(EngineRun, ReflectanceOfOneAndMoreIsClampedAndConverges) {
     double at_limit = 0.0;

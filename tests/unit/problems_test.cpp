@@ -301,5 +301,39 @@ TEST(ImportFixVeto, AnEmptyOrHiddenSceneGetsNone) {
     EXPECT_FALSE(suggest_import_fix(hidden).any());
 }
 
+TEST_F(Problems, CoarseCoordinatesOfAMeshFarFromItsOriginAreTold) {
+    for (const float away : {1e3F, 1e6F}) {
+        Scene site;
+        auto data = std::make_shared<MeshData>();
+        data->positions = {{away, 0, 0}, {away + 4, 0, 0}, {away, 0, 4}};
+        data->indices = {0, 1, 2};
+        data->parts = {{0, 3}};
+        Shape shape;
+        shape.geometry = Mesh{data};
+        Node node;
+        node.name = "Site";
+        node.shape = site.shapes.insert(shape);
+        site.roots.push_back(site.nodes.insert(node));
+        const auto found = find_problems(site);
+        const bool told = std::any_of(found.begin(), found.end(), [](const Problem& p) {
+            return p.what.find("steps of 62.5 mm") != std::string::npos && p.where.find("Site") != std::string::npos;
+        });
+        EXPECT_EQ(told, away > 1e5F) << away;
+    }
+}
+
+TEST_F(Problems, ACameraOfNoSizeIsTold) {
+    Scene site;
+    Node node;
+    node.name = "Flat camera";
+    node.camera = site.cameras.insert(Camera{});
+    node.transform.scale = dvec3(1.0, 0.0, 1.0);
+    site.roots.push_back(site.nodes.insert(node));
+    const auto found = find_problems(site);
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(), [](const Problem& p) {
+        return p.what.find("its camera has no direction") != std::string::npos;
+    }));
+}
+
 } // namespace
 } // namespace atrium

@@ -1,5 +1,6 @@
 #include "ui/window/help_dialogs.h"
 
+#include "engine/base/version.h"
 #include "ui/actions/actions.h"
 
 #include <QCoreApplication>
@@ -135,7 +136,7 @@ void show_about_box(QWidget* parent) {
     auto* box = new QMessageBox(parent);
     box->setAttribute(Qt::WA_DeleteOnClose);
     box->setWindowTitle(tr_help(QT_TRANSLATE_NOOP("Help", "About Atrium")));
-    box->setText(QStringLiteral("Atrium %1").arg(QLatin1StringView(ATRIUM_VERSION)));
+    box->setText(QStringLiteral("Atrium %1").arg(QString::fromStdString(version_text())));
     box->setInformativeText(tr_help(QT_TRANSLATE_NOOP(
         "Help", "Interiors with live global illumination: hierarchical radiosity that follows every edit.\n\n"
                 "Free software; the licence is in the file LICENSE.")));
