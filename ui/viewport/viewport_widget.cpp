@@ -4,6 +4,7 @@
 #include "engine/view/tone.h"
 #include "ui/document/background.h"
 #include "ui/tools/transform_tool.h"
+#include "ui/viewport/legend.h"
 #include "ui/viewport/look_at.h"
 #include "ui/viewport/markers.h"
 #include "ui/viewport/picture_renderer.h"
@@ -27,7 +28,8 @@ namespace {
 constexpr int kRefineAfterMs = 350;
 constexpr int kProbeAfterMs = 150; ///< of rest; then a face at a time
 constexpr int kWalkTickMs = 16;
-constexpr double kPinchSteps = 6.0; ///< dolly steps for a pinch to twice the size
+constexpr double kLegendMargin = 12.0; ///< logical pixels
+constexpr double kPinchSteps = 6.0;    ///< dolly steps for a pinch to twice the size
 
 /// A new mean is taken over at rest when it differs by more than this factor: somebody switched the lights.
 constexpr double kMeanJump = 8.0;
@@ -65,6 +67,11 @@ struct ViewportWidget::Impl : ToolHost {
     int document_number = 0; ///< rises with every other document
     bool cut_walls = true;
     LightShares shares;
+    std::optional<FalseColor> false_color;
+    std::vector<Plate> plates;
+    std::optional<FalseColor> legend_of; ///< that legend_image shows
+    QString legend_style;                ///< likewise: font, palette, pixel ratio
+    QImage legend_image;
     bool refine = false;
     bool items_dirty = true;
     bool markers_dirty = true;
@@ -327,6 +334,25 @@ struct ViewportWidget::Impl : ToolHost {
         if (markers_dirty) {
             markers_dirty = false;
             find_hidden(markers, view, controller);
+        }
+    }
+
+    // ---- words over the picture ----
+    void collect_plates() {
+        plates.clear();
+        const double ratio = widget.devicePixelRatioF();
+        if (false_color) {
+            const QString style =
+                widget.font().key() + QString::number(widget.palette().cacheKey()) + QString::number(ratio);
+            if (legend_of != false_color || legend_style != style) {
+                legend_of = false_color;
+                legend_style = style;
+                legend_image = Legend(*false_color, widget.font(), widget.palette()).image(ratio);
+            }
+            const dvec2 size = dvec2(legend_image.width(), legend_image.height()) / ratio;
+            plates.push_back(
+                {legend_image,
+                 {widget.width() - size.x - kLegendMargin, std::max(kLegendMargin, 0.5 * (widget.height() - size.y))}});
         }
     }
 
@@ -618,6 +644,15 @@ void ViewportWidget::set_light_shares(const LightShares& shares) {
 }
 LightShares ViewportWidget::light_shares() const { return impl_->shares; }
 
+void ViewportWidget::set_false_color(const std::optional<FalseColor>& scale) {
+    const auto valid = scale ? std::optional(valid_scale(*scale)) : scale;
+    if (valid != impl_->false_color) {
+        impl_->false_color = valid;
+        impl_->picture_changed();
+    }
+}
+const std::optional<FalseColor>& ViewportWidget::false_color() const { return impl_->false_color; }
+
 ViewCamera ViewportWidget::camera() const {
     ViewCamera out = impl_->controller.camera();
     out.lens.exposure_ev = impl_->exposure_ev;
@@ -684,6 +719,7 @@ void ViewportWidget::paintGL() {
         impl_->tool().draw(impl_->overlay);
     }
     draw_axes(impl_->overlay, impl_->controller);
+    impl_->collect_plates();
     const double ratio = devicePixelRatioF();
     FrameInput in{impl_->doc.scene(),
                   impl_->view,
@@ -697,6 +733,8 @@ void ViewportWidget::paintGL() {
                   impl_->caustic_boxes,
                   impl_->texel_grid,
                   impl_->landings && impl_->solution ? impl_->solution->landings : nullptr,
+                  impl_->false_color,
+                  impl_->plates,
                   impl_->refine,
                   std::max(1, int(std::lround(width() * ratio))),
                   std::max(1, int(std::lround(height() * ratio))),

@@ -1,6 +1,7 @@
 // The OpenGL viewport: thin. Camera, picking, drawing and tools live in their own classes beside it.
 #pragma once
 
+#include "engine/view/false_color.h"
 #include "engine/view/still.h"
 #include "ui/document/document.h"
 #include "ui/document/engine_link.h"
@@ -9,6 +10,7 @@
 #include <QOpenGLWidget>
 
 #include <memory>
+#include <optional>
 
 namespace atrium::ui {
 
@@ -43,6 +45,9 @@ public:
     void set_cut_walls(bool on); ///< from outside, leave out the walls and the ceiling in front of the room (the default)
     void set_light_shares(const LightShares& shares); ///< what of the light is shown; all by default
     [[nodiscard]] LightShares light_shares() const;
+    /// Amounts of light on this scale, with its legend, instead of the picture; none for the picture.
+    void set_false_color(const std::optional<FalseColor>& scale);
+    [[nodiscard]] const std::optional<FalseColor>& false_color() const;
     [[nodiscard]] ViewCamera camera() const; ///< as seen now, for "export picture"
     void set_camera(const ViewCamera& camera);
     /// Point on the floor or nearest surface in the middle of the view: where new objects are placed, world metres.

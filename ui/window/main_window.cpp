@@ -12,6 +12,7 @@
 #include "ui/viewport/viewport_widget.h"
 #include "ui/window/daylight_bar.h"
 #include "ui/window/export_picture_dialog.h"
+#include "ui/window/false_color_bar.h"
 #include "ui/window/file_controller.h"
 #include "ui/window/help_dialogs.h"
 #include "ui/window/import_bar.h"
@@ -105,6 +106,8 @@ MainWindow::MainWindow(const QString& recovery_directory, QWidget* parent) : QMa
     layout->addWidget(import_bar_);
     layout->addWidget(daylight_bar);
     layout->addWidget(pages_, 1);
+    false_color_bar_ = new FalseColorBar(document_, *engine_);
+    layout->addWidget(false_color_bar_);
     setCentralWidget(centre);
 
     make_docks();
@@ -114,6 +117,7 @@ MainWindow::MainWindow(const QString& recovery_directory, QWidget* parent) : QMa
     connect_files();
     connect_edit();
     connect_view();
+    connect_false_color();
     connect_documents();
 
     resize(1360, 860);
@@ -258,11 +262,30 @@ void MainWindow::make_menus() {
     fill(tr("&Add"), {ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder, ActionId::AddCone,
                       ActionId::AddDisc, gap, ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight,
                       ActionId::AddSun, ActionId::AddDaylight, gap, ActionId::AddCamera});
-    auto* view = fill(tr("&View"),
-                      {ActionId::FrameSelection, ActionId::FrameAll, ActionId::WalkMode, gap, ActionId::ExposureUp,
-                       ActionId::ExposureDown, ActionId::ExposureReset, gap, ActionId::ShowDirect, ActionId::ShowDiffuse,
-                       ActionId::ShowCaustic, gap, ActionId::Wireframe, ActionId::CutWalls, gap, ActionId::InspectCaustics,
-                       ActionId::CausticBoxes, ActionId::TexelGrid, ActionId::ParticleLandings});
+    auto* view = fill(tr("&View"), {ActionId::FrameSelection,
+                                    ActionId::FrameAll,
+                                    ActionId::WalkMode,
+                                    gap,
+                                    ActionId::ExposureUp,
+                                    ActionId::ExposureDown,
+                                    ActionId::ExposureReset,
+                                    gap,
+                                    ActionId::ShowPicture,
+                                    ActionId::ShowIlluminance,
+                                    ActionId::ShowLuminance,
+                                    ActionId::Contours,
+                                    gap,
+                                    ActionId::ShowDirect,
+                                    ActionId::ShowDiffuse,
+                                    ActionId::ShowCaustic,
+                                    gap,
+                                    ActionId::Wireframe,
+                                    ActionId::CutWalls,
+                                    gap,
+                                    ActionId::InspectCaustics,
+                                    ActionId::CausticBoxes,
+                                    ActionId::TexelGrid,
+                                    ActionId::ParticleLandings});
     auto* ways = view->addMenu(tr("Ca&ustics Shown As"));
     for (const auto& [id, way] : kWays) {
         ways->addAction(a[id]);
@@ -488,6 +511,7 @@ void MainWindow::connect_view() {
             }
             const LightShares shares{switches[1]->isChecked(), switches[0]->isChecked(), switches[2]->isChecked()};
             viewport_->set_light_shares(shares);
+            false_color_bar_->set_shares(shares);
             Settings().set_light_shares(shares);
             say(shares == LightShares{} ? tr("All light is shown.") : tr("Shown: only %1.").arg(shares_text(shares)));
         });
@@ -498,6 +522,36 @@ void MainWindow::connect_view() {
     on(ActionId::Shortcuts, [this] { show_shortcut_list(this); });
     on(ActionId::About, [this] { show_about_box(this); });
     on(ActionId::Commands, [this] { show_command_search(*actions_, this); });
+}
+
+void MainWindow::connect_false_color() {
+    connect(false_color_bar_, &FalseColorBar::changed, this,
+            [this] { viewport_->set_false_color(false_color_bar_->scale()); });
+    connect(false_color_bar_, &FalseColorBar::message, this, &MainWindow::say);
+    const Settings settings;
+    auto* group = new QActionGroup(this);
+    const std::array<std::pair<ActionId, std::optional<LightQuantity>>, 3> views{
+        {{ActionId::ShowPicture, std::nullopt},
+         {ActionId::ShowIlluminance, LightQuantity::Illuminance},
+         {ActionId::ShowLuminance, LightQuantity::Luminance}}};
+    for (const auto& [id, quantity] : views) {
+        group->addAction((*actions_)[id]);
+        (*actions_)[id]->setChecked(settings.false_color() == quantity);
+        on(id, [this, shown = quantity] {
+            false_color_bar_->set_quantity(shown);
+            (*actions_)[ActionId::Contours]->setEnabled(shown.has_value());
+        });
+    }
+    QAction* contours = (*actions_)[ActionId::Contours];
+    contours->setChecked(settings.contours());
+    contours->setEnabled(settings.false_color().has_value());
+    connect(contours, &QAction::toggled, this, [this](bool on) {
+        Settings().set_contours(on);
+        false_color_bar_->set_contours(on);
+    });
+    false_color_bar_->set_shares(viewport_->light_shares());
+    false_color_bar_->set_contours(settings.contours());
+    false_color_bar_->set_quantity(settings.false_color());
 }
 
 void MainWindow::connect_documents() {

@@ -21,6 +21,7 @@ namespace atrium::ui {
 class Actions;
 class CausticPanel;
 class EditController;
+class FalseColorBar;
 class FileController;
 class ImportBar;
 class PropertiesPanel;
@@ -43,6 +44,7 @@ public:
     [[nodiscard]] FileController& files() { return *files_; }
     [[nodiscard]] SceneTreePanel& tree() { return *tree_; }
     [[nodiscard]] CausticPanel& caustics() { return *caustics_; }
+    [[nodiscard]] FalseColorBar& false_color_bar() { return *false_color_bar_; }
     [[nodiscard]] Recovery& recovery() { return *recovery_; }
     [[nodiscard]] QAction* action(ActionId id) const;
 
@@ -60,6 +62,7 @@ private:
     void connect_files();
     void connect_edit();
     void connect_view();
+    void connect_false_color();
     void connect_documents();
     void update_title();
     void update_actions();
@@ -78,6 +81,7 @@ private:
     ViewportWidget* viewport_ = nullptr;
     StartPage* start_ = nullptr;
     ImportBar* import_bar_ = nullptr;
+    FalseColorBar* false_color_bar_ = nullptr;
     QStackedWidget* pages_ = nullptr;
     SceneTreePanel* tree_ = nullptr;
     PropertiesPanel* properties_ = nullptr;

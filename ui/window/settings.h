@@ -2,15 +2,26 @@
 #pragma once
 
 #include "engine/layers/surface_layer.h"
+#include "engine/view/false_color.h"
 
 #include <QByteArray>
 #include <QString>
 #include <QStringList>
 
+#include <optional>
+
 namespace atrium::ui {
 
 /// The shares by name, as "direct light, caustics".
 QString shares_text(const LightShares& shares);
+
+/// How one quantity of light is turned into colours.
+struct ScaleChoice {
+    bool logarithmic = true; ///< sun and shade, and 100-200-300-500 lx, are told apart on the same scale
+    bool automatic = true;   ///< the range follows the scene's light
+    double minimum = 0;      ///< of a range set by hand, lux or cd/m2
+    double maximum = 500;
+};
 
 /// Thin face of QSettings. UI thread only.
 class Settings {
@@ -25,6 +36,12 @@ public:
     void set_last_folder(const QString& folder);
     [[nodiscard]] LightShares light_shares() const; ///< what the view shows of the light; never nothing
     void set_light_shares(const LightShares& shares);
+    [[nodiscard]] std::optional<LightQuantity> false_color() const; ///< none: the picture
+    void set_false_color(std::optional<LightQuantity> quantity);
+    [[nodiscard]] ScaleChoice scale_choice(LightQuantity quantity) const;
+    void set_scale_choice(LightQuantity quantity, const ScaleChoice& choice);
+    [[nodiscard]] bool contours() const;
+    void set_contours(bool on);
 };
 
 } // namespace atrium::ui
