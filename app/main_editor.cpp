@@ -33,7 +33,7 @@ private:
     void take_soon() {
         if (!soon_) {
             soon_ = true;
-            QTimer::singleShot(700, this, [this] { take(); }); // the view uploads and paints, panels settle
+            QTimer::singleShot(1500, this, [this] { take(); }); // the view uploads and paints, panels settle
         }
     }
     void take() {

@@ -7,7 +7,8 @@ namespace atrium {
 namespace {
 
 constexpr std::size_t kPoints = 16384;
-constexpr double kShare = 0.01; ///< of the area that is left out at either end
+constexpr double kDark = 0.05; ///< of the area, left out at the lower end
+constexpr double kBright = 0.01;
 
 struct Side {
     const SurfaceLayer* layer;
@@ -90,7 +91,7 @@ LightRange light_range(const Scene& scene, const Solution& solution, LightQuanti
     }
     std::sort(amounts.begin(), amounts.end());
     const auto at = [&](double share) { return amounts[std::size_t(share * double(amounts.size() - 1))]; };
-    return {at(kShare), at(1.0 - kShare)};
+    return {at(kDark), at(1.0 - kBright)};
 }
 
 FalseColor fitted_scale(FalseColor scale, const LightRange& range) {
@@ -98,7 +99,7 @@ FalseColor fitted_scale(FalseColor scale, const LightRange& range) {
         return valid_scale(scale);
     }
     scale.maximum = round_up(range.high);
-    scale.minimum = scale.logarithmic ? round_down(std::clamp(range.low, 1e-4 * scale.maximum, 0.1 * scale.maximum)) : 0.0;
+    scale.minimum = scale.logarithmic ? round_down(std::clamp(range.low, 1e-3 * scale.maximum, 0.1 * scale.maximum)) : 0.0;
     return valid_scale(scale);
 }
 

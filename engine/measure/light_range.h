@@ -8,7 +8,7 @@ namespace atrium {
 
 /// Between which amounts nearly all of the light on matt surfaces lies; lux or cd/m2.
 struct LightRange {
-    double low = 0;  ///< one per cent of the surfaces' area is darker
+    double low = 0;  ///< five per cent of the surfaces' area are darker: behind and below things it is always dark
     double high = 0; ///< one per cent of it is brighter; 0 = no light
 };
 
@@ -16,7 +16,7 @@ struct LightRange {
 /// tens of milliseconds in large scenes.
 LightRange light_range(const Scene& scene, const Solution& solution, LightQuantity quantity, const LightShares& shares = {});
 
-/// `scale` with round ends around the range: from zero on a linear scale, over at most four powers of ten on a logarithmic
+/// `scale` with round ends around the range: from zero on a linear scale, over at most three powers of ten on a logarithmic
 /// one. Unchanged where there is no light.
 FalseColor fitted_scale(FalseColor scale, const LightRange& range);
 

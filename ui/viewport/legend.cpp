@@ -53,6 +53,9 @@ QString amount_text(double amount) {
         const double unit = std::pow(10.0, std::floor(std::log10(size)) - 2.0);
         return locale.toString(std::round(amount / unit) * unit, 'f', 0);
     }
+    if (size > 0.0 && size < 0.01) {
+        return locale.toString(amount, 'g', 2);
+    }
     const int digits = size >= 100.0 ? 0 : size >= 10.0 ? 1 : size >= 1.0 ? 2 : 3;
     QString text = locale.toString(amount, 'f', digits);
     if (text.contains(locale.decimalPoint())) {

@@ -3,6 +3,7 @@
 
 #include "engine/view/tone.h"
 #include "ui/document/background.h"
+#include "ui/tools/measure_tool.h"
 #include "ui/tools/transform_tool.h"
 #include "ui/viewport/legend.h"
 #include "ui/viewport/look_at.h"
@@ -53,7 +54,9 @@ struct ViewportWidget::Impl : ToolHost {
     std::shared_ptr<const Solution> solution; ///< shown
     std::shared_ptr<const Solution> awaited;  ///< shown as soon as its light maps are uploaded
 
-    std::array<std::unique_ptr<Tool>, 4> tools;
+    std::array<std::unique_ptr<Tool>, 5> tools;
+    MeasureTool* measure = nullptr; ///< one of them
+    MeasuringPoints points;
     ToolKind tool_kind = ToolKind::Select;
     float exposure_ev = 0;
     double mean_radiance = 0;
@@ -104,6 +107,9 @@ struct ViewportWidget::Impl : ToolHost {
         tools[1] = std::make_unique<MoveTool>(*this);
         tools[2] = std::make_unique<RotateTool>(*this);
         tools[3] = std::make_unique<ScaleTool>(*this);
+        auto measuring = std::make_unique<MeasureTool>(*this);
+        measure = measuring.get();
+        tools[4] = std::move(measuring);
         pending_timer.setSingleShot(true);
         pending_timer.setInterval(0);
         refine_timer.setSingleShot(true);
@@ -153,6 +159,14 @@ struct ViewportWidget::Impl : ToolHost {
             return hit;
         }
         return view.pick(ray);
+    }
+
+    [[nodiscard]] std::optional<MeterReading> read_light(const dvec2& point) const override {
+        return solution ? read_along(view, doc.scene(), *solution, controller.ray(point)) : std::nullopt;
+    }
+    MeasuringPoints& measuring_points() override {
+        markers_dirty = true; // what is changed about them is looked at again
+        return points;
     }
 
     [[nodiscard]] Tool& tool() { return *tools[std::size_t(tool_kind)]; }
@@ -221,6 +235,7 @@ struct ViewportWidget::Impl : ToolHost {
         cancel();
         ++document_number;
         view.clear();
+        points.clear();
         solution.reset();
         stop_awaiting();
         mean_radiance = 0;
@@ -325,6 +340,7 @@ struct ViewportWidget::Impl : ToolHost {
             view.sync(doc.scene(), solution);
             renderer.invalidate_items();
             markers = find_markers(doc.scene());
+            points.read(view, doc.scene(), solution);
             markers_dirty = true;
             if (!doc.in_gesture()) {
                 controller.set_scene_bounds(robust_bounds(doc.scene()));
@@ -334,6 +350,7 @@ struct ViewportWidget::Impl : ToolHost {
         if (markers_dirty) {
             markers_dirty = false;
             find_hidden(markers, view, controller);
+            points.look(view, controller);
         }
     }
 
@@ -353,6 +370,46 @@ struct ViewportWidget::Impl : ToolHost {
             plates.push_back(
                 {legend_image,
                  {widget.width() - size.x - kLegendMargin, std::max(kLegendMargin, 0.5 * (widget.height() - size.y))}});
+        }
+        collect_labels(ratio);
+    }
+
+    void draw_points() {
+        for (const MeasuringPoints::Point& point : points.points()) {
+            const auto at = point.reading ? controller.project(point.reading->point) : std::nullopt;
+            if (!at) {
+                continue;
+            }
+            const float alpha = point.hidden ? 0.35F : 1.0F;
+            overlay.disc(*at, 5.5, vec4(0.0F, 0.0F, 0.0F, 0.75F * alpha));
+            overlay.disc(*at, 4.0, vec4(1.0F, 1.0F, 1.0F, alpha));
+            overlay.disc(*at, 2.0, vec4(0.85F, 0.1F, 0.1F, alpha));
+        }
+    }
+    /// Labels beside the points, where they are in sight, and beside the cursor.
+    void collect_labels(double ratio) {
+        const auto label = [&](const QStringList& lines, const dvec2& at, double gap) {
+            const QImage image = label_image(lines, widget.font(), widget.palette(), ratio);
+            const dvec2 size = dvec2(image.width(), image.height()) / ratio;
+            dvec2 place(at.x + gap, at.y - 0.5 * size.y);
+            if (place.x + size.x > widget.width()) {
+                place.x = at.x - gap - size.x;
+            }
+            place = glm::clamp(place, dvec2(0.0), glm::max(dvec2(widget.width(), widget.height()) - size, dvec2(0.0)));
+            plates.push_back({image, place});
+        };
+        for (const MeasuringPoints::Point& point : points.points()) {
+            const auto at = point.reading && !point.hidden ? controller.project(point.reading->point) : std::nullopt;
+            if (at && at->x > 0.0 && at->y > 0.0 && at->x < widget.width() && at->y < widget.height()) {
+                QStringList lines = reading_lines(point.reading->light);
+                lines[0] = QStringLiteral("%1:  %2").arg(point.number).arg(lines[0]);
+                label(lines.mid(0, 2), *at, 10.0);
+            }
+        }
+        if (tool_kind == ToolKind::Measure && measure->cursor() && navigation == Navigation::None && !walking) {
+            if (const auto reading = read_light(*measure->cursor())) {
+                label(reading_lines(reading->light), *measure->cursor(), 18.0);
+            }
         }
     }
 
@@ -386,7 +443,7 @@ struct ViewportWidget::Impl : ToolHost {
             if (tool().hover(pointer)) {
                 widget.update();
             }
-            const auto hit = pick(pointer.position);
+            const auto hit = tool_kind == ToolKind::Measure ? std::nullopt : pick(pointer.position);
             set_hovered(hit ? hit->node : NodeId{});
         }
     }
@@ -525,7 +582,10 @@ void ViewportWidget::set_tool(ToolKind kind) {
         return;
     }
     impl_->cancel();
+    impl_->tool().leave();
     impl_->tool_kind = kind;
+    impl_->set_hovered({});
+    setCursor(kind == ToolKind::Measure ? Qt::CrossCursor : Qt::ArrowCursor);
     update();
     Q_EMIT tool_changed(kind);
 }
@@ -653,6 +713,19 @@ void ViewportWidget::set_false_color(const std::optional<FalseColor>& scale) {
 }
 const std::optional<FalseColor>& ViewportWidget::false_color() const { return impl_->false_color; }
 
+const MeasuringPoints& ViewportWidget::measuring_points() const {
+    impl_->sync();
+    return impl_->points;
+}
+void ViewportWidget::clear_measuring_points() {
+    impl_->points.clear();
+    update();
+}
+std::optional<MeterReading> ViewportWidget::light_at(const QPointF& point) {
+    impl_->sync();
+    return impl_->read_light(to_vec(point));
+}
+
 ViewCamera ViewportWidget::camera() const {
     ViewCamera out = impl_->controller.camera();
     out.lens.exposure_ev = impl_->exposure_ev;
@@ -718,6 +791,7 @@ void ViewportWidget::paintGL() {
         draw_markers(impl_->overlay, impl_->markers, impl_->controller, selected, impl_->hovered_node);
         impl_->tool().draw(impl_->overlay);
     }
+    impl_->draw_points();
     draw_axes(impl_->overlay, impl_->controller);
     impl_->collect_plates();
     const double ratio = devicePixelRatioF();
@@ -770,7 +844,7 @@ void ViewportWidget::mousePressEvent(QMouseEvent* event) {
         impl_->pivot = impl_->point_under(point);
         impl_->set_hovered({});
     } else if (event->button() == Qt::LeftButton) {
-        if (event->type() == QEvent::MouseButtonDblClick) {
+        if (event->type() == QEvent::MouseButtonDblClick && impl_->tool_kind != ToolKind::Measure) {
             if (const auto hit = impl_->pick(point)) {
                 impl_->doc.selection()->set({hit->node});
                 frame_selection();
@@ -873,6 +947,8 @@ bool ViewportWidget::event(QEvent* event) {
     case QEvent::Leave:
         impl_->pending.reset();
         impl_->set_hovered({});
+        impl_->tool().leave();
+        update();
         break;
     case QEvent::NativeGesture: {
         const auto* gesture = static_cast<QNativeGestureEvent*>(event);

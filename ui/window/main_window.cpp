@@ -23,10 +23,12 @@
 #include <array>
 
 #include <QActionGroup>
+#include <QClipboard>
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QFileInfo>
+#include <QGuiApplication>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
@@ -59,7 +61,8 @@ QString dropped_file(const QMimeData* data) {
 const std::pair<ActionId, ToolKind> kTools[] = {{ActionId::ToolSelect, ToolKind::Select},
                                                 {ActionId::ToolMove, ToolKind::Move},
                                                 {ActionId::ToolRotate, ToolKind::Rotate},
-                                                {ActionId::ToolScale, ToolKind::Scale}};
+                                                {ActionId::ToolScale, ToolKind::Scale},
+                                                {ActionId::ToolMeasure, ToolKind::Measure}};
 
 const std::pair<ActionId, NewObject> kAdd[] = {{ActionId::AddPolygon, NewObject::Polygon},
                                                {ActionId::AddBox, NewObject::Box},
@@ -257,6 +260,10 @@ void MainWindow::make_menus() {
                        ActionId::ToolMove,
                        ActionId::ToolRotate,
                        ActionId::ToolScale,
+                       gap,
+                       ActionId::ToolMeasure,
+                       ActionId::CopyPoints,
+                       ActionId::RemovePoints,
                        gap,
                        ActionId::Commands});
     fill(tr("&Add"), {ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder, ActionId::AddCone,
@@ -517,6 +524,16 @@ void MainWindow::connect_view() {
         });
     }
     connect(viewport_, &ViewportWidget::message, this, &MainWindow::say);
+    on(ActionId::CopyPoints, [this] {
+        const auto& points = viewport_->measuring_points().points();
+        if (points.empty()) {
+            say(tr("There are no measuring points yet: choose Measure Light and click on a surface."));
+            return;
+        }
+        QGuiApplication::clipboard()->setText(QString::fromStdString(viewport_->measuring_points().csv()));
+        say(tr("%n measuring point(s) copied.", nullptr, int(points.size())));
+    });
+    on(ActionId::RemovePoints, [this] { viewport_->clear_measuring_points(); });
     on(ActionId::StopLight, [this] { engine_->cancel(); });
     on(ActionId::ResumeLight, [this] { engine_->resume(); });
     on(ActionId::Shortcuts, [this] { show_shortcut_list(this); });
@@ -539,12 +556,11 @@ void MainWindow::connect_false_color() {
         (*actions_)[id]->setChecked(settings.false_color() == quantity);
         on(id, [this, shown = quantity] {
             false_color_bar_->set_quantity(shown);
-            (*actions_)[ActionId::Contours]->setEnabled(shown.has_value());
+            update_actions();
         });
     }
     QAction* contours = (*actions_)[ActionId::Contours];
     contours->setChecked(settings.contours());
-    contours->setEnabled(settings.false_color().has_value());
     connect(contours, &QAction::toggled, this, [this](bool on) {
         Settings().set_contours(on);
         false_color_bar_->set_contours(on);
@@ -586,6 +602,7 @@ void MainWindow::update_actions() {
         (*actions_)[id]->setEnabled(selected);
     }
     (*actions_)[ActionId::Hide]->setEnabled(selected && !walking);
+    (*actions_)[ActionId::Contours]->setEnabled(false_color_bar_->quantity() && !walking);
     const bool solving = engine_->status().state == SessionStatus::State::Solving;
     (*actions_)[ActionId::StopLight]->setEnabled(solving);
     (*actions_)[ActionId::ResumeLight]->setEnabled(!solving && engine_->stale());
@@ -620,7 +637,7 @@ void MainWindow::export_picture() {
     const Settings settings;
     const QString base = document_.path().isEmpty() ? tr("Untitled") : QFileInfo(document_.path()).completeBaseName();
     auto* dialog = new ExportPictureDialog(document_.scene(), solution, viewport_->camera(), viewport_->exposure(),
-                                           viewport_->light_shares(),
+                                           viewport_->light_shares(), viewport_->false_color(),
                                            settings.last_folder() + QLatin1Char('/') + base + QStringLiteral(".png"), this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &ExportPictureDialog::message, this, &MainWindow::say);
