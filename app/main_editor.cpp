@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
                                     QStringLiteral("NODE"));
     const QCommandLineOption panel(QStringLiteral("panel"),
                                    QObject::tr("bring a panel to the front: tree, properties, jobs, problems, "
-                                               "caustics; none puts all away"),
+                                               "caustics, convergence; none puts all away"),
                                    QStringLiteral("NAME"));
     const QCommandLineOption command(QStringLiteral("command"),
                                      QObject::tr("run a command of the menus by its name (caustic_boxes, wireframe, ...) "

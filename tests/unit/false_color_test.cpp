@@ -1,5 +1,6 @@
 #include "engine/measure/light_range.h"
 #include "engine/view/false_color.h"
+#include "engine/view/still.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -99,11 +100,12 @@ TEST(FalseColor, AnyRangeBecomesOneThatCanBeDrawn) {
 std::pair<Scene, std::shared_ptr<Solution>> two_squares() {
     Scene scene;
     auto solution = std::make_shared<Solution>();
-    const auto add = [&](double width, float lux, float rho) {
+    const auto add = [&](double width, float lux, float rho, double x) {
         Material material;
         material.base_color = Rgb(rho);
         const auto half = float(0.5 * width);
         Node node;
+        node.transform.translation = dvec3(x, 0.0, 0.0);
         node.shape =
             scene.shapes.insert({"", Polygon{{{-half, -0.5F}, {half, -0.5F}, {half, 0.5F}, {-half, 0.5F}}, {}}, {}});
         node.materials = {scene.materials.insert(material)};
@@ -115,8 +117,8 @@ std::pair<Scene, std::shared_ptr<Solution>> two_squares() {
         scene.roots.push_back(layer->node);
         solution->surfaces.push_back(layer);
     };
-    add(3.0, 40.0F, 0.8F);
-    add(1.0, 900.0F, 0.2F);
+    add(3.0, 40.0F, 0.8F, 0.0);
+    add(1.0, 900.0F, 0.2F, 3.0);
     return {scene, solution};
 }
 
@@ -131,6 +133,34 @@ TEST(LightRange, IsThatOfTheSurfacesByArea) {
     const LightRange seen = light_range(scene, *solution, LightQuantity::Luminance);
     EXPECT_NEAR(seen.low, 0.8 * 60.0 / kPiD, 0.01);
     EXPECT_NEAR(seen.high, 0.2 * 1350.0 / kPiD, 0.01);
+}
+
+TEST(FalseColor, StillsHaveTheColourOfTheAmountAndGreyOutside) {
+    const auto [scene, solution] = two_squares();
+    ViewCamera camera;
+    camera.to_world[3] = dvec4(1.0, 0.0, 4.0, 1.0);
+    camera.lens.yfov = 1.2F;
+    StillOptions options;
+    options.width = 120;
+    options.height = 60;
+    const auto at = [&](const Picture& picture, double x, double y) { // a point of the plane z = 0
+        const double scale = 30.0 / (std::tan(0.6) * 4.0);
+        return picture.pixels[std::size_t(30.0 - scale * y) * 120U + std::size_t(60.0 + scale * (x - 1.0))];
+    };
+    const auto expect = [](const Rgb& pixel, const Rgb& wanted, const char* what) {
+        EXPECT_NEAR(glm::length(pixel - wanted), 0.0F, 1e-3F) << what;
+    };
+    FalseColor scale{LightQuantity::Illuminance, true, 10.0, 3000.0, true};
+    const Picture lux = render_false_color(scene, *solution, camera, options, scale, {});
+    expect(at(lux, 0.5, 0.1), false_color(scale, 60.0), "direct and diffuse light");
+    expect(at(lux, 3.0, 0.1), false_color(scale, 1350.0), "the bright square");
+    expect(at(lux, 0.5, 1.5), Rgb(0.27F), "nothing is there");
+    scale.quantity = LightQuantity::Luminance;
+    const Picture nits = render_false_color(scene, *solution, camera, options, scale, {});
+    expect(at(nits, 3.0, 0.1), false_color(scale, 0.2 * 1350.0 / kPiD), "luminance");
+    options.shares = {false, true, false};
+    expect(at(render_false_color(scene, *solution, camera, options, scale, {}), 3.0, 0.1),
+           false_color(scale, 0.2 * 450.0 / kPiD), "direct light alone");
 }
 
 TEST(LightRange, ScalesFitAroundIt) {

@@ -67,6 +67,7 @@ const std::array kTable = {
     ActionInfo{ActionId::CausticsInTextures, "caustics_in_textures", ATRIUM_TEXT("Caustics in &Textures"), "Alt+3", "", ATRIUM_TEXT("Show the light as it is computed"), true},
     ActionInfo{ActionId::CausticsWhole, "caustics_whole", ATRIUM_TEXT("Textures without &Restriction"), "Alt+4", "", ATRIUM_TEXT("Show caustics as if the same number of texels covered whole surfaces"), true},
     ActionInfo{ActionId::InspectCaustics, "inspect_caustics", ATRIUM_TEXT("Inspect Caus&tics"), "Ctrl+Shift+C", "", ATRIUM_TEXT("List every surface that caustics fall on: what was decided, why, and what can be set by hand")},
+    ActionInfo{ActionId::Convergence, "convergence", ATRIUM_TEXT("C&onvergence"), "Ctrl+Shift+E", "", ATRIUM_TEXT("Plot the estimated error against run time, with every figure of the solution")},
     ActionInfo{ActionId::CutWalls, "cut_walls", ATRIUM_TEXT("&Look through Near Walls"), "", "", ATRIUM_TEXT("From outside, leave out the walls and the ceiling that hide the room"), true},
     ActionInfo{ActionId::ShowPicture, "show_picture", ATRIUM_TEXT("&Picture"), "F5", "", ATRIUM_TEXT("Show the room as the eye sees it"), true},
     ActionInfo{ActionId::ShowIlluminance, "show_illuminance", ATRIUM_TEXT("&Illuminance"), "F6", "", ATRIUM_TEXT("Show in false colour how much light arrives on surfaces, in lux"), true},

@@ -63,6 +63,7 @@ enum class ActionId : std::uint8_t {
     CausticsInTextures,
     CausticsWhole,
     InspectCaustics,
+    Convergence,
     CutWalls,
     ShowPicture,
     ShowIlluminance,

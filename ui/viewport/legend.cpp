@@ -17,7 +17,7 @@ constexpr double kColumn = 16.0;
 constexpr double kGap = 6.0;
 constexpr double kTick = 4.0;
 constexpr double kRadius = 4.0;
-constexpr double kLines = 12.0; ///< lines of text that the column is high
+constexpr double kLines = 15.0; ///< lines of text that the column is high
 
 QString tr_legend(const char* text) { return QCoreApplication::translate("Legend", text); }
 

@@ -5,6 +5,7 @@
 #include "ui/actions/icons.h"
 #include "ui/panels/caustic_panel.h"
 #include "ui/panels/caustic_places.h"
+#include "ui/panels/convergence_panel.h"
 #include "ui/panels/jobs_panel.h"
 #include "ui/panels/problems_panel.h"
 #include "ui/panels/properties_panel.h"
@@ -186,6 +187,11 @@ void MainWindow::make_docks() {
     auto* caustics_dock = dock("dock_caustics", tr("Caustics"), caustics_, Qt::BottomDockWidgetArea);
     resizeDocks({caustics_dock}, {320}, Qt::Vertical);
     caustics_dock->hide();
+    convergence_ = new ConvergencePanel(document_, *engine_);
+    auto* convergence_dock = dock("dock_convergence", tr("Convergence"), convergence_, Qt::BottomDockWidgetArea);
+    tabifyDockWidget(caustics_dock, convergence_dock);
+    convergence_dock->hide();
+    connect(convergence_, &ConvergencePanel::message, this, &MainWindow::say);
     connect(caustics_, &CausticPanel::message, this, &MainWindow::say);
     connect(caustics_, &CausticPanel::activated, this, [this](const CausticRow& row) {
         if (const auto solution = engine_->solution()) {
@@ -289,6 +295,7 @@ void MainWindow::make_menus() {
                                     ActionId::Wireframe,
                                     ActionId::CutWalls,
                                     gap,
+                                    ActionId::Convergence,
                                     ActionId::InspectCaustics,
                                     ActionId::CausticBoxes,
                                     ActionId::TexelGrid,
@@ -495,6 +502,12 @@ void MainWindow::connect_view() {
             dock->show();
             dock->raise();
             caustics_->focus_table();
+        }
+    });
+    on(ActionId::Convergence, [this] {
+        if (auto* dock = findChild<QDockWidget*>(QStringLiteral("dock_convergence"))) {
+            dock->show();
+            dock->raise();
         }
     });
     (*actions_)[ActionId::CutWalls]->setChecked(true);

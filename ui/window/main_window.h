@@ -20,6 +20,7 @@ namespace atrium::ui {
 
 class Actions;
 class CausticPanel;
+class ConvergencePanel;
 class EditController;
 class FalseColorBar;
 class FileController;
@@ -45,6 +46,7 @@ public:
     [[nodiscard]] SceneTreePanel& tree() { return *tree_; }
     [[nodiscard]] CausticPanel& caustics() { return *caustics_; }
     [[nodiscard]] FalseColorBar& false_color_bar() { return *false_color_bar_; }
+    [[nodiscard]] ConvergencePanel& convergence() { return *convergence_; }
     [[nodiscard]] Recovery& recovery() { return *recovery_; }
     [[nodiscard]] QAction* action(ActionId id) const;
 
@@ -86,6 +88,7 @@ private:
     SceneTreePanel* tree_ = nullptr;
     PropertiesPanel* properties_ = nullptr;
     CausticPanel* caustics_ = nullptr;
+    ConvergencePanel* convergence_ = nullptr;
     QMenu* recent_menu_ = nullptr;
     QMenu* docks_menu_ = nullptr;
     QLabel* busy_text_ = nullptr;

@@ -1,0 +1,187 @@
+#include "ui/panels/convergence_plot.h"
+
+#include <QChart>
+#include <QChartView>
+#include <QEvent>
+#include <QGraphicsLayout>
+#include <QLineSeries>
+#include <QPainter>
+#include <QScatterSeries>
+#include <QSvgGenerator>
+#include <QVBoxLayout>
+#include <QValueAxis>
+
+#include <algorithm>
+#include <cmath>
+
+namespace atrium::ui {
+namespace {
+
+// Told apart by shape and words too, not by colour alone (Okabe and Ito's colours, 2008).
+const QColor kLine(0, 114, 178);
+const QColor kUpdates(230, 159, 0);
+const QColor kNow(130, 130, 130);
+
+double shown_error(const ConvergenceSample& sample) { return 100.0 * sample.statistics.error_estimate; }
+
+} // namespace
+
+struct ConvergencePlot::Impl {
+    QChart* chart = new QChart;
+    QChartView* view = new QChartView(chart);
+    QValueAxis* time = new QValueAxis;
+    QValueAxis* error = new QValueAxis;
+    QLineSeries* now = new QLineSeries;
+    QScatterSeries* updates = new QScatterSeries;
+    std::vector<QLineSeries*> runs; ///< one each, in order; more than are needed stay empty
+
+    QLineSeries* run(std::size_t index) {
+        while (runs.size() <= index) {
+            auto* line = new QLineSeries;
+            line->setName(tr("Solutions"));
+            chart->addSeries(line);
+            line->attachAxis(time);
+            line->attachAxis(error);
+            line->setPen(QPen(kLine, 2.0));
+            line->setPointsVisible(true);
+            runs.push_back(line);
+        }
+        return runs[index];
+    }
+    void set_colors(bool dark) {
+        chart->setTheme(dark ? QChart::ChartThemeDark : QChart::ChartThemeLight);
+        for (QLineSeries* line : runs) {
+            line->setPen(QPen(kLine, 2.0));
+            line->setColor(kLine);
+        }
+        now->setPen(QPen(kNow, 1.0, Qt::DashLine));
+        updates->setColor(kUpdates);
+        updates->setBorderColor(Qt::transparent);
+        chart->setBackgroundRoundness(0);
+    }
+};
+
+ConvergencePlot::ConvergencePlot(QWidget* parent) : QWidget(parent), impl_(std::make_unique<Impl>()) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->addWidget(impl_->view);
+    impl_->view->setRenderHint(QPainter::Antialiasing);
+    impl_->view->setAccessibleName(tr("Error against run time"));
+    setMinimumHeight(160);
+    QChart* chart = impl_->chart;
+    chart->legend()->hide();
+    chart->layout()->setContentsMargins(0, 0, 0, 0);
+    chart->setMargins(QMargins(4, 4, 8, 4));
+    impl_->time->setTitleText(tr("run time, s"));
+    impl_->error->setTitleText(tr("error, %"));
+    chart->addAxis(impl_->time, Qt::AlignBottom);
+    chart->addAxis(impl_->error, Qt::AlignLeft);
+    impl_->updates->setMarkerShape(QScatterSeries::MarkerShapeRectangle);
+    impl_->updates->setMarkerSize(6.0);
+    for (QXYSeries* series : {static_cast<QXYSeries*>(impl_->now), static_cast<QXYSeries*>(impl_->updates)}) {
+        chart->addSeries(series);
+        series->attachAxis(impl_->time);
+        series->attachAxis(impl_->error);
+    }
+    impl_->set_colors(palette().color(QPalette::Window).lightness() < 128);
+    show_samples({}, false, -1.0);
+}
+
+ConvergencePlot::~ConvergencePlot() = default;
+
+void ConvergencePlot::show_samples(std::span<const ConvergenceSample> samples, bool whole_session, double now) {
+    using Kind = ConvergenceSample::Kind;
+    double last_time = std::max(now, 0.0);
+    double largest = 0.0;
+    QList<QPointF> updates;
+    std::vector<QList<QPointF>> lines;
+    int run = 0;
+    for (const ConvergenceSample& sample : samples) {
+        const double at = whole_session ? sample.total_seconds : sample.seconds;
+        const QPointF point(at, shown_error(sample));
+        last_time = std::max(last_time, at);
+        if (!(point.y() > 0.0)) {
+            continue; // not known yet
+        }
+        largest = std::max(largest, point.y());
+        if (sample.kind == Kind::Hurried || sample.kind == Kind::Settled) {
+            updates.append(point);
+            continue;
+        }
+        if (lines.empty() || sample.run != run) {
+            lines.emplace_back();
+            run = sample.run;
+        }
+        lines.back().append(point);
+    }
+    for (std::size_t i = 0; i < std::max(lines.size(), impl_->runs.size()); ++i) {
+        impl_->run(i)->replace(i < lines.size() ? lines[i] : QList<QPointF>());
+    }
+    impl_->updates->replace(updates);
+    const auto axis = [](QValueAxis* shown, double end, double least) {
+        shown->setRange(0.0, std::max(end, least));
+        shown->applyNiceNumbers();
+        const double step = shown->max() / std::max(shown->tickCount() - 1, 1);
+        shown->setLabelFormat(step >= 1.0   ? QStringLiteral("%.0f")
+                              : step >= 0.1 ? QStringLiteral("%.1f")
+                                            : QStringLiteral("%.2f"));
+    };
+    axis(impl_->time, last_time * 1.02, 1e-2);
+    axis(impl_->error, largest * 1.1, 0.1);
+    impl_->now->replace(now >= 0.0 ? QList<QPointF>{{now, 0.0}, {now, impl_->error->max()}} : QList<QPointF>());
+}
+
+int ConvergencePlot::points() const {
+    qsizetype count = impl_->updates->count();
+    for (const QLineSeries* line : impl_->runs) {
+        count += line->count();
+    }
+    return int(count);
+}
+
+Result<void> ConvergencePlot::save(const QString& path) {
+    const std::string name = path.toStdString();
+    const QSize size = impl_->view->size().expandedTo({480, 270});
+    const bool svg = path.endsWith(QLatin1StringView(".svg"), Qt::CaseInsensitive);
+    const bool dark = palette().color(QPalette::Window).lightness() < 128;
+    impl_->set_colors(false);
+    const auto paint = [&](QPainter& painter, const QRectF& area) {
+        painter.setRenderHint(QPainter::Antialiasing);
+        impl_->view->scene()->render(&painter, area, {}, Qt::IgnoreAspectRatio);
+    };
+    bool written = false;
+    if (svg) {
+        QSvgGenerator generator;
+        generator.setFileName(path);
+        generator.setSize(size);
+        generator.setViewBox(QRect(QPoint(0, 0), size));
+        generator.setTitle(tr("Error against run time"));
+        QPainter painter;
+        written = painter.begin(&generator);
+        if (written) {
+            paint(painter, QRectF(QPointF(0, 0), QSizeF(size)));
+            written = painter.end();
+        }
+    } else {
+        QImage image(size * 2, QImage::Format_RGB32);
+        image.fill(Qt::white);
+        QPainter painter(&image);
+        paint(painter, QRectF(image.rect()));
+        painter.end();
+        written = image.save(path);
+    }
+    impl_->set_colors(dark);
+    if (!written) {
+        return fail(name, "", "could not be written", "Choose another folder or free some space.");
+    }
+    return {};
+}
+
+void ConvergencePlot::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange && impl_) {
+        impl_->set_colors(palette().color(QPalette::Window).lightness() < 128);
+    }
+}
+
+} // namespace atrium::ui
