@@ -109,7 +109,7 @@ std::string legend_csv(const FalseColor& scale) {
     for (const double value : values) {
         const Rgb c = false_color(scale, value);
         const auto byte = [](float x) { return int(std::lround(255.0F * x)); };
-        out += fmt::format("{},#{:02x}{:02x}{:02x}\n", value, byte(c.r), byte(c.g), byte(c.b));
+        out += fmt::format("{:.6g},#{:02x}{:02x}{:02x}\n", value, byte(c.r), byte(c.g), byte(c.b));
     }
     return out;
 }

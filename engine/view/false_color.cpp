@@ -47,7 +47,7 @@ std::vector<double> even_steps(double from, double to, std::size_t most) {
         const double last = std::floor(to / width + kSlack);
         if (last - first + 1.0 <= double(most)) {
             for (double k = first; k <= last; k += 1.0) {
-                out.push_back(k * width);
+                out.push_back(k * width + 0.0); // never -0
             }
             return out;
         }

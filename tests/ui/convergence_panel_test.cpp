@@ -6,6 +6,7 @@
 #include "ui/panels/convergence_panel.h"
 #include "ui/panels/convergence_plot.h"
 
+#include <QApplication>
 #include <QDockWidget>
 #include <QFile>
 #include <QImageReader>
@@ -81,6 +82,7 @@ class Convergence : public WindowTest {};
 
 TEST_F(Convergence, ShowsTheFiguresOfTheSolutionAndSavesThePlot) {
     trigger(ActionId::Convergence);
+    trigger(ActionId::ShowLuminance);
     auto* dock = window->findChild<QDockWidget*>(QStringLiteral("dock_convergence"));
     ASSERT_NE(dock, nullptr);
     EXPECT_TRUE(dock->isVisible());
@@ -133,6 +135,21 @@ TEST_F(Convergence, ShowsTheFiguresOfTheSolutionAndSavesThePlot) {
     ASSERT_TRUE(drawing.open(QIODevice::ReadOnly));
     const QByteArray text = drawing.readAll();
     EXPECT_TRUE(text.contains("<svg") && text.contains("run time"));
+    const QPalette light = QApplication::palette();
+    QPalette dark(QColor(45, 45, 45));
+    QApplication::setPalette(dark);
+    settle();
+    QImage shown = window->grab().toImage();
+    const QWidget* plot = window->findChild<ConvergencePlot*>();
+    const QPoint inside = plot->mapTo(window.get(), QPoint(6, plot->height() / 4));
+    EXPECT_LT(QColor(shown.pixel(inside * shown.devicePixelRatio())).lightness(), 110) << "dark in the dark";
+    ASSERT_TRUE(window->convergence().save(png));
+    EXPECT_GT(QImage(png).pixelColor(3, 3).lightness(), 240) << "but paper is white";
+    if (const QByteArray pictures = qgetenv("ATRIUM_PICTURES"); !pictures.isEmpty()) {
+        shown.save(QString::fromLocal8Bit(pictures) + QStringLiteral("/convergence_dark.png"));
+    }
+    QApplication::setPalette(light);
+    trigger(ActionId::ShowPicture);
     EXPECT_FALSE(window->convergence().save(folder.filePath(QStringLiteral("no/such/folder.csv"))));
     EXPECT_FALSE(window->convergence().save(folder.filePath(QStringLiteral("no/such/folder.png"))));
     EXPECT_FALSE(window->convergence().save(folder.filePath(QStringLiteral("no/such/folder.svg"))));

@@ -87,7 +87,7 @@ ConvergencePanel::ConvergencePanel(Document& document, EngineLink& engine, QWidg
     split->addWidget(figures_);
     split->setStretchFactor(0, 1);
     split->setStretchFactor(1, 0);
-    split->setSizes({560, 340});
+    split->setSizes({520, 400});
     layout->addWidget(split, 1);
     tick_.setInterval(kTickMs);
     connect(&tick_, &QTimer::timeout, this, &ConvergencePanel::refresh_live);
@@ -220,6 +220,16 @@ void ConvergencePanel::refresh_figures() {
     };
     if (last_) {
         const Statistics& s = last_->statistics;
+        const auto show_times = [&](const Statistics& shown) {
+            auto* time = group(QStringLiteral("time"));
+            set_row(time, QStringLiteral("build"), seconds_text(shown.time.build));
+            set_row(time, QStringLiteral("first_picture"), seconds_text(shown.time.first_picture));
+            set_row(time, QStringLiteral("solve"), seconds_text(shown.time.solve));
+            phases_ = group(QStringLiteral("phases"));
+            for (const Statistics::Phase& phase : shown.phases) {
+                set_row(phases_, QString::fromStdString(phase.name), seconds_text(phase.seconds), share_text(phase.share));
+            }
+        };
         QTreeWidgetItem* parent = nullptr;
         for (const StatisticsFigure& figure : statistics_figures(s)) {
             const QString key = QString::fromStdString(figure.key);
@@ -228,18 +238,13 @@ void ConvergencePanel::refresh_figures() {
                 set_row(root, key, figure_text(figure));
                 continue;
             }
+            if (parent == nullptr) { // counts come first, then times, then the other groups
+                show_times(s);
+            }
             if (parent == nullptr || parent->text(0) != key.left(point)) {
                 parent = group(key.left(point));
             }
             set_row(parent, key.mid(point + 1), figure_text(figure));
-        }
-        auto* time = group(QStringLiteral("time"));
-        set_row(time, QStringLiteral("build"), seconds_text(s.time.build));
-        set_row(time, QStringLiteral("first_picture"), seconds_text(s.time.first_picture));
-        set_row(time, QStringLiteral("solve"), seconds_text(s.time.solve));
-        phases_ = group(QStringLiteral("phases"));
-        for (const Statistics::Phase& phase : s.phases) {
-            set_row(phases_, QString::fromStdString(phase.name), seconds_text(phase.seconds), share_text(phase.share));
         }
     } else if (solving_) {
         phases_ = group(QStringLiteral("phases"));

@@ -6,6 +6,7 @@
 #include <QGraphicsLayout>
 #include <QLineSeries>
 #include <QPainter>
+#include <QSaveFile>
 #include <QScatterSeries>
 #include <QSvgGenerator>
 #include <QVBoxLayout>
@@ -149,30 +150,29 @@ Result<void> ConvergencePlot::save(const QString& path) {
         painter.setRenderHint(QPainter::Antialiasing);
         impl_->view->scene()->render(&painter, area, {}, Qt::IgnoreAspectRatio);
     };
-    bool written = false;
-    if (svg) {
+    QSaveFile file(path);
+    bool written = file.open(QIODevice::WriteOnly);
+    if (written && svg) {
         QSvgGenerator generator;
-        generator.setFileName(path);
+        generator.setOutputDevice(&file);
         generator.setSize(size);
         generator.setViewBox(QRect(QPoint(0, 0), size));
         generator.setTitle(tr("Error against run time"));
-        QPainter painter;
-        written = painter.begin(&generator);
-        if (written) {
-            paint(painter, QRectF(QPointF(0, 0), QSizeF(size)));
-            written = painter.end();
-        }
-    } else {
+        QPainter painter(&generator);
+        paint(painter, QRectF(QPointF(0, 0), QSizeF(size)));
+        painter.end();
+    } else if (written) {
         QImage image(size * 2, QImage::Format_RGB32);
         image.fill(Qt::white);
         QPainter painter(&image);
         paint(painter, QRectF(image.rect()));
         painter.end();
-        written = image.save(path);
+        written = image.save(&file, "PNG");
     }
     impl_->set_colors(dark);
-    if (!written) {
-        return fail(name, "", "could not be written", "Choose another folder or free some space.");
+    if (!written || !file.commit()) {
+        return fail(name, "", "could not be written: " + file.errorString().toStdString(),
+                    "Choose another folder or free some space.");
     }
     return {};
 }
