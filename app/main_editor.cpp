@@ -1,4 +1,5 @@
 // The editor: atrium [FILE]. With --screenshot FILE.png it opens, waits for the light, takes its own picture and quits.
+#include "ui/viewport/viewport_widget.h"
 #include "ui/window/file_controller.h"
 #include "ui/window/main_window.h"
 
@@ -18,8 +19,9 @@ namespace {
 /// Saves a picture of the window once the light is up to date, or after `limit_ms`; then ends the program.
 class Screenshot : public QObject {
 public:
-    Screenshot(atrium::ui::MainWindow& window, QString file, int limit_ms)
-        : QObject(&window), window_(window), file_(std::move(file)) {
+    /// `points` to be measured, in shares of the view's width and height.
+    Screenshot(atrium::ui::MainWindow& window, QString file, int limit_ms, QList<QPointF> points)
+        : QObject(&window), window_(window), file_(std::move(file)), points_(std::move(points)) {
         connect(&window_.engine(), &atrium::ui::EngineLink::status_changed, this, [this] {
             const auto solution = window_.engine().solution();
             if (solution && solution->final && !window_.engine().stale()) {
@@ -41,6 +43,10 @@ private:
             return;
         }
         taken_ = true;
+        for (const QPointF& point : points_) {
+            auto& view = window_.viewport();
+            view.add_measuring_point({point.x() * view.width(), point.y() * view.height()});
+        }
         const bool saved = window_.grab().save(file_);
         if (!saved) {
             QTextStream(stderr) << QObject::tr("%1: the picture could not be written").arg(file_) << '\n';
@@ -49,6 +55,7 @@ private:
     }
     atrium::ui::MainWindow& window_;
     QString file_;
+    QList<QPointF> points_;
     bool soon_ = false;
     bool taken_ = false;
 };
@@ -93,7 +100,11 @@ int main(int argc, char** argv) {
                                      QObject::tr("run a command of the menus by its name (caustic_boxes, wireframe, ...) "
                                                  "once the file is open; may be repeated"),
                                      QStringLiteral("NAME"));
-    parser.addOptions({screenshot, wait, size, sample, select, panel, command});
+    const QCommandLineOption measure(QStringLiteral("measure-at"),
+                                     QObject::tr("with --screenshot: put a measuring point at this place of the view, in "
+                                                 "shares of its width and height; may be repeated"),
+                                     QStringLiteral("X,Y"));
+    parser.addOptions({screenshot, wait, size, sample, select, panel, command, measure});
     parser.process(app);
 
     atrium::ui::MainWindow window;
@@ -143,7 +154,12 @@ int main(int argc, char** argv) {
         window.files().open_sample();
     }
     if (parser.isSet(screenshot)) {
-        new Screenshot(window, parser.value(screenshot), int(parser.value(wait).toDouble() * 1000));
+        QList<QPointF> points;
+        for (const QString& place : parser.values(measure)) {
+            const QStringList numbers = place.split(QLatin1Char(','));
+            points.append({numbers.value(0).toDouble(), numbers.value(1).toDouble()});
+        }
+        new Screenshot(window, parser.value(screenshot), int(parser.value(wait).toDouble() * 1000), points);
     } else {
         window.files().offer_recovery();
     }

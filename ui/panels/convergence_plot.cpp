@@ -20,6 +20,7 @@ namespace {
 
 // Told apart by shape and words too, not by colour alone (Okabe and Ito's colours, 2008).
 const QColor kLine(0, 114, 178);
+const QColor kLineInTheDark(86, 180, 233);
 const QColor kUpdates(230, 159, 0);
 const QColor kNow(130, 130, 130);
 
@@ -34,6 +35,7 @@ struct ConvergencePlot::Impl {
     QValueAxis* error = new QValueAxis;
     QLineSeries* now = new QLineSeries;
     QScatterSeries* updates = new QScatterSeries;
+    QColor line_color = kLine;
     std::vector<QLineSeries*> runs; ///< one each, in order; more than are needed stay empty
 
     QLineSeries* run(std::size_t index) {
@@ -43,17 +45,17 @@ struct ConvergencePlot::Impl {
             chart->addSeries(line);
             line->attachAxis(time);
             line->attachAxis(error);
-            line->setPen(QPen(kLine, 2.0));
+            line->setPen(QPen(line_color, 2.0));
             line->setPointsVisible(true);
             runs.push_back(line);
         }
         return runs[index];
     }
     void set_colors(bool dark) {
+        line_color = dark ? kLineInTheDark : kLine;
         chart->setTheme(dark ? QChart::ChartThemeDark : QChart::ChartThemeLight);
         for (QLineSeries* line : runs) {
-            line->setPen(QPen(kLine, 2.0));
-            line->setColor(kLine);
+            line->setPen(QPen(line_color, 2.0));
         }
         now->setPen(QPen(kNow, 1.0, Qt::DashLine));
         updates->setColor(kUpdates);

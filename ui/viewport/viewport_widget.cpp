@@ -721,6 +721,14 @@ void ViewportWidget::clear_measuring_points() {
     impl_->points.clear();
     update();
 }
+bool ViewportWidget::add_measuring_point(const QPointF& point) {
+    const auto reading = light_at(point);
+    if (reading) {
+        impl_->measuring_points().add(impl_->doc.scene(), *reading);
+        update();
+    }
+    return reading.has_value();
+}
 std::optional<MeterReading> ViewportWidget::light_at(const QPointF& point) {
     impl_->sync();
     return impl_->read_light(to_vec(point));

@@ -52,6 +52,8 @@ public:
     /// What the measuring tool left behind, with readings of the light that is shown. They last as long as the document.
     [[nodiscard]] const MeasuringPoints& measuring_points() const;
     void clear_measuring_points();
+    /// Puts one at a point of the view, logical pixels; false where there is nothing to be measured.
+    bool add_measuring_point(const QPointF& point);
     /// The light under a point of the view, logical pixels; none where there is nothing to be measured.
     [[nodiscard]] std::optional<MeterReading> light_at(const QPointF& point);
     [[nodiscard]] ViewCamera camera() const; ///< as seen now, for "export picture"
