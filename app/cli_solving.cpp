@@ -2,6 +2,7 @@
 
 #include "app/cli_stats.h"
 #include "engine/base/parallel.h"
+#include "engine/measure/error_audit.h"
 #include "engine/scene/daylight.h"
 
 #include <CLI/App.hpp>
@@ -37,13 +38,37 @@ bool good_enough(const Solution& stored, const SolveArguments& arguments) {
     return !arguments.error || stored.statistics.error_estimate <= *arguments.error;
 }
 
+/// Measures the error of light just made. What was stopped gets a quick look: the time is over.
+std::shared_ptr<const Solution> look_at_error(const Solved& solved, std::shared_ptr<const Solution> solution,
+                                              const SolveOptions& options, const SolveArguments& arguments,
+                                              const RunContext& context) {
+    if (!arguments.audit && arguments.stats.empty() && !arguments.error) {
+        return solution;
+    }
+    context.progress("audit", 1.0);
+    RunContext unhurried;
+    unhurried.stop = context.stop;
+    AuditSettings settings = audit_settings(solution->final ? options.quality : SolverSettings::Quality::Draft);
+    settings.seed = options.seed;
+    return audited(solved.scene, std::move(solution), settings, unhurried);
+}
+
+/// The next better quality, where the error wished for is not reached; false at the end of them.
+bool go_finer(SolveOptions& options) {
+    switch (options.quality) {
+    case SolverSettings::Quality::Draft: options.quality = SolverSettings::Quality::Normal; return true;
+    case SolverSettings::Quality::Normal: options.quality = SolverSettings::Quality::Fine; return true;
+    case SolverSettings::Quality::Fine: return false;
+    }
+    return false;
+}
+
 } // namespace
 
 void set_options(SolveOptions& options, const Scene& scene, const SolveArguments& arguments) {
     options.quality = arguments.quality ? kQualities.at(*arguments.quality) : scene.settings.quality;
     options.seed = arguments.seed.value_or(scene.settings.seed);
     options.paper_mode = arguments.mode == "paper";
-    options.target_error = arguments.error.value_or(0.0);
 }
 
 RunContext context_for(const SolveArguments& arguments) {
@@ -62,7 +87,10 @@ void add_solve_options(CLI::App& command, SolveArguments& a) {
     command.add_option("--quality", a.quality, "How fine: draft, normal or fine (default: as the project says)")
         ->check(CLI::IsMember({"draft", "normal", "fine"}))
         ->group(group);
-    command.add_option("--error", a.error, "Relative error of irradiance to aim for, as 0.02")
+    command
+        .add_option("--error", a.error,
+                    "Relative error of irradiance wished for, as 0.05: from draft on, better qualities follow until "
+                    "the measured error is as small")
         ->check(CLI::Range(1e-6, 1.0))
         ->group(group);
     command.add_option("--time", a.time, "Stop after this many seconds with what there is (exit status 2)")
@@ -133,8 +161,31 @@ int light_up(Solved& solved, const SolveArguments& arguments, bool need_engine, 
     }
     SolveOptions options;
     set_options(options, solved.scene, arguments);
-    auto result = solved.engine.solve(solved.scene, options, context, on_snapshot);
+    if (arguments.error && !arguments.quality) {
+        options.quality = SolverSettings::Quality::Draft; // as much as the wish takes, no more
+    }
+    Result<std::shared_ptr<const Solution>> result = nullptr;
+    for (;;) {
+        auto next = solved.engine.solve(solved.scene, options, context, on_snapshot);
+        if (next) {
+            next = look_at_error(solved, *next, options, arguments, context);
+        }
+        // A better quality that was stopped before its last picture does not replace a complete one.
+        const bool better = !result || *result == nullptr || (next && (*next)->final);
+        if (better) {
+            result = std::move(next);
+        }
+        if (!better || !result || !(*result)->final || !arguments.error ||
+            (*result)->statistics.error_estimate <= *arguments.error || !go_finer(options)) {
+            break;
+        }
+    }
     finish_progress();
+    if (result && arguments.error && (*result)->statistics.error_estimate > *arguments.error) {
+        complain(fmt::format("{}: asked for an error of {:.1f} %, reached {:.1f} % at quality {}", solved.file,
+                             100.0 * *arguments.error, 100.0 * (*result)->statistics.error_estimate,
+                             (*result)->statistics.quality));
+    }
     if (!result) {
         Error error = result.error();
         if (error.file.empty()) {

@@ -25,6 +25,7 @@ struct SolveArguments {
     std::string stats;
     bool progress = false;
     bool daylight = false; ///< add a sun and a sky where the file has no light
+    bool audit = true; ///< the command tells or keeps the error of the light; else it is measured for stats or error only
 };
 void add_solve_options(CLI::App& command, SolveArguments& arguments);
 

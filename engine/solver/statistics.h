@@ -22,6 +22,20 @@ struct UpdateStatistics {
     friend bool operator==(const UpdateStatistics&, const UpdateStatistics&) = default;
 };
 
+/// Light at random places of all surfaces against brute force (audit_error()). The difference of a place is relative to the
+/// truth there, or to a twentieth of the mean where that is more.
+struct ErrorAudit {
+    double rms = 0;           ///< root mean square of the differences
+    double low = 0, high = 0; ///< bounds of rms that hold 95 times in 100
+    double bias = 0;          ///< of the mean irradiance, relative
+    double bias_error = 0;    ///< its standard error
+    std::uint32_t points = 0; ///< 0 = no audit was made
+    std::uint64_t paths = 0;  ///< of the truth at each point
+    std::uint64_t rays = 0;
+    double seconds = 0;
+    friend bool operator==(const ErrorAudit&, const ErrorAudit&) = default;
+};
+
 /// Times in seconds of wall clock, sizes in bytes. What was not used is zero.
 struct Statistics {
     struct Phase {
@@ -42,8 +56,10 @@ struct Statistics {
     int iterations = 0;
     bool converged = false;
     double residual = 0; ///< relative, of the linear system on the final links
-    double error_estimate =
-        0; ///< relative standard error of irradiance, area weighted: by chance, and by the size of leaves
+    /// Relative error of irradiance, root mean square over the area of all surfaces: measured where there is an audit, else
+    /// what the samples' spread and the size of leaves tell, which is too little where surfaces lie close together.
+    double error_estimate = 0;
+    ErrorAudit audit;
     bool link_budget_reached = false; ///< memory ran out for links: some elements are larger than the quality asks for
     std::uint64_t triangles = 0, elements = 0, clusters = 0, links = 0, rays = 0;
     std::uint64_t records = 0; ///< of reflected light that the picture was interpolated from

@@ -2,7 +2,7 @@
 
 #include "engine/base/rng.h"
 #include "engine/raycast/ray_scene.h"
-#include "engine/reference/path_tracer.h"
+#include "engine/reference/lit_places.h"
 #include "engine/reference/reference.h"
 
 #include <fmt/format.h>
@@ -27,86 +27,16 @@ std::string csv_name(const Scene& scene, NodeId id) {
     return name;
 }
 
-/// True where the side is neither covered (everything within a millimetre) nor out of reach of all light: of 48 paths of
-/// up to 48 bounces at least one finds some.
-bool light_can_reach(const RayScene& rays, const PathTracer& tracer, const vec3& position, const vec3& normal) {
-    constexpr std::uint32_t kTries = 48;
-    vec3 t;
-    vec3 b;
-    make_frame(normal, t, b);
-    bool covered = true;
-    const PathVertex vertex{clear_of(position, normal), normal};
-    for (std::uint32_t i = 0; i < kTries && covered; ++i) {
-        const vec2 u = sobol_owen2(i, 0, 77U);
-        const float r = std::sqrt(u.x);
-        const float angle = 2.0F * kPi * u.y;
-        const vec3 d = glm::normalize(r * std::cos(angle) * t + r * std::sin(angle) * b + std::sqrt(1.0F - u.x) * normal);
-        const Hit hit = rays.nearest({vertex.origin, d});
-        covered = hit && hit.t < 1e-3F;
-    }
-    for (std::uint32_t i = 0; i < kTries && !covered; ++i) {
-        PathSampler sampler(99, i);
-        if (tracer.finds_light(vertex, sampler, kTries)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /// Area-weighted random places; the same for the same scene and count.
 std::vector<Probe> pick_probes(const Scene& scene, std::size_t count) {
     const RayScene rays(scene);
     const PathTracer tracer(scene, rays);
-    struct Side {
-        std::uint32_t surface, triangle;
-        bool back;
-    };
-    std::vector<Side> sides;
-    std::vector<double> cumulative;
-    double total = 0.0;
-    for (std::uint32_t s = 0; s < rays.surfaces().size(); ++s) {
-        if (classify(rays.material(s)) != MaterialKind::Diffuse) {
-            continue;
-        }
-        for (std::uint32_t t = 0; t < rays.surfaces()[s].triangles.size(); ++t) {
-            const auto p = rays.triangle(s, t);
-            const double area = 0.5 * double(glm::length(glm::cross(p[1] - p[0], p[2] - p[0])));
-            for (int side = 0; side < (rays.surfaces()[s].back_side ? 2 : 1); ++side) {
-                total += area;
-                sides.push_back({s, t, side == 1});
-                cumulative.push_back(total);
-            }
-        }
-    }
     std::vector<Probe> out;
-    for (std::uint32_t i = 0; out.size() < count && i < 20 * count && !sides.empty(); ++i) {
-        const double at = double(sobol_owen(i, 2, 5U)) * total;
-        const auto found = std::upper_bound(cumulative.begin(), cumulative.end(), at) - cumulative.begin();
-        const Side& side = sides[std::min(std::size_t(found), sides.size() - 1)];
-        const vec2 u = sobol_owen2(i, 0, 5U);
-        const float root = std::sqrt(u.x);
-        Hit hit;
-        hit.surface = side.surface;
-        hit.triangle = side.triangle;
-        hit.barycentric = {root * (1.0F - u.y), root * u.y};
-        const auto p = rays.triangle(side.surface, side.triangle);
-        hit.geometric_normal = glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
-        const vec3 position = p[0] + (p[1] - p[0]) * hit.barycentric.x + (p[2] - p[0]) * hit.barycentric.y;
-        const Material& m = rays.material(side.surface);
-        if (m.alpha_mode == Material::Alpha::Mask &&
-            rays.base_color(hit.surface, hit.triangle, hit.barycentric).a < m.alpha_cutoff) {
-            continue;
-        }
-        // Curved things are read with their smooth normal, as they are shown.
-        vec3 normal = rays.shading_normal(hit);
-        normal = glm::dot(normal, hit.geometric_normal) >= 0.75F ? normal : hit.geometric_normal;
-        const float sign = side.back ? -1.0F : 1.0F;
-        if (!light_can_reach(rays, tracer, position, hit.geometric_normal * sign)) {
-            continue;
-        }
+    for (const LitPlace& place : lit_places(rays, tracer, count, 5U)) {
         Probe probe;
-        probe.place = {dvec3(position) + rays.origin(), dvec3(normal * sign)};
-        probe.node = csv_name(scene, rays.surfaces()[side.surface].node);
+        probe.place = {place.position, place.normal};
+        probe.node = csv_name(scene, place.node);
+        probe.open = place.open;
         out.push_back(probe);
     }
     return out;
@@ -143,13 +73,13 @@ std::uint64_t hash_scene(const fs::path& path) {
 }
 
 std::string to_csv(const Reference& reference) {
-    std::string out = "x,y,z,nx,ny,nz,E_r,E_g,E_b,E,stderr,on_surface,node,paths,runs\n";
+    std::string out = "x,y,z,nx,ny,nz,E_r,E_g,E_b,E,stderr,on_surface,node,paths,runs,open\n";
     for (const Probe& p : reference.probes) {
         const dvec3& at = p.place.point;
         const dvec3& n = p.place.normal;
-        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},1,{},{},{}\n", at.x, at.y, at.z, n.x, n.y, n.z, p.irradiance.r,
-                           p.irradiance.g, p.irradiance.b, luminance(p.irradiance), p.standard_error, p.node,
-                           reference.paths, reference.runs);
+        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},1,{},{},{},{}\n", at.x, at.y, at.z, n.x, n.y, n.z,
+                           p.irradiance.r, p.irradiance.g, p.irradiance.b, luminance(p.irradiance), p.standard_error, p.node,
+                           reference.paths, reference.runs, p.open);
     }
     return out;
 }
@@ -167,7 +97,7 @@ bool read_cache(const fs::path& path, Reference& out) {
         for (std::string cell; std::getline(row, cell, ',');) {
             cells.push_back(cell);
         }
-        if (cells.size() != 15) {
+        if (cells.size() != 16) {
             return false;
         }
         const auto number = [&](std::size_t k) {
@@ -180,6 +110,7 @@ bool read_cache(const fs::path& path, Reference& out) {
         p.irradiance = {float(number(6)), float(number(7)), float(number(8))};
         p.standard_error = number(10);
         p.node = cells[12];
+        p.open = number(15);
         out.paths = number(13);
         out.runs = unsigned(number(14));
         out.probes.push_back(p);
@@ -218,22 +149,8 @@ bool add_run(const Scene& scene, Reference& reference, const ReferenceOptions& a
 
 } // namespace
 
-void drop_covered(const Scene& scene, std::vector<Probe>& probes) {
-    const RayScene rays(scene);
-    constexpr float kNear = 1e-3F;
-    std::erase_if(probes, [&](const Probe& probe) {
-        const vec3 p(probe.place.point - rays.origin());
-        const vec3 n(probe.place.normal);
-        const auto own = [&](const Hit& hit) {
-            return hit && std::abs(hit.t - kNear) < 0.1F * kNear &&
-                   csv_name(scene, rays.surfaces()[hit.surface].node) == probe.node;
-        };
-        // From both sides: of two surfaces in one plane a ray may meet either.
-        const Hit above = rays.nearest({p + n * kNear, -n, 2.0F * kNear});
-        const Hit below = rays.nearest({p - n * kNear, n, 2.0F * kNear});
-        const bool dark = probe.irradiance == Rgb(0.0F);
-        return dark || !own(above) || (below && std::abs(below.t - kNear) < 0.1F * kNear && !own(below));
-    });
+void drop_dark(std::vector<Probe>& probes) {
+    std::erase_if(probes, [](const Probe& probe) { return probe.irradiance == Rgb(0.0F); });
 }
 
 bool get_reference(const fs::path& file, const Scene& scene, bool daylight, const ReferenceOptions& a, Reference& out) {
@@ -303,6 +220,13 @@ Row compare(const std::vector<Probe>& probes, const std::vector<SensorReading>& 
         spread += (s - square) * (s - square);
     }
     row.rms = std::sqrt(std::max(square, 0.0));
+    double seen = 0.0;
+    double seen_count = 0.0;
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+        seen += probes[i].open >= 0.1 ? squares[i] : 0.0;
+        seen_count += probes[i].open >= 0.1 ? 1.0 : 0.0;
+    }
+    row.rms_seen = seen_count > 0.0 ? std::sqrt(std::max(seen / seen_count, 0.0)) : 0.0;
     row.rms_spread = std::sqrt(spread) / n / (2.0 * std::max(row.rms, 1e-3));
     row.bias = reference_sum > 0.0 ? (sum - reference_sum) / reference_sum : 0.0;
     row.reference_bias = reference_sum > 0.0 ? std::sqrt(variance) / reference_sum : 0.0;

@@ -14,6 +14,7 @@ namespace atrium::bench {
 struct Probe {
     SensorPlace place;
     std::string node;
+    double open = 1.0; ///< LitPlace::open
     Rgb irradiance{0.0F};
     double standard_error = 0;
 };
@@ -37,15 +38,15 @@ struct ReferenceOptions {
 bool get_reference(const std::filesystem::path& file, const Scene& scene, bool daylight, const ReferenceOptions& options,
                    Reference& out);
 
-/// Leaves out places that something lies on within a millimetre, or in whose very plane another surface lies: which of the
-/// two is seen there is left to rounding. Also those where none of the reference's paths found light.
-void drop_covered(const Scene& scene, std::vector<Probe>& probes);
+/// Leaves out places where none of the reference's paths found light.
+void drop_dark(std::vector<Probe>& probes);
 
 /// How far readings are from the reference. A point's relative difference is (E - R) / max(R, 5 % of the mean R).
 struct Row {
     std::size_t points = 0;
     std::size_t unread = 0; ///< points at which the solution has no layer: shown black, counted as such
     double rms = 0;         ///< root of its mean square, less the reference's own variance
+    double rms_seen = 0;    ///< the same without gaps (LitPlace::open below a tenth)
     double rms_spread = 0;  ///< standard error of rms from the choice of points and the reference's noise
     double bias = 0;
     double p50 = 0, p95 = 0, p99 = 0;

@@ -19,6 +19,8 @@ STATISTICS = {
     "threads": int, "seed": int, "mode": str, "quality": str, "features": {f: {"used": bool, "why": str} for f in FEATURES},
     "time": {k: float for k in ("load", "build", "solve", "first_picture", "total")},
     "phases": list, "iterations": int, "converged": bool, "residual": float, "error_estimate": float,
+    "error_audit": {"rms": float, "low": float, "high": float, "bias": float, "bias_error": float, "points": int, "paths": int,
+                    "rays": int, "seconds": float},
     "elements": int, "clusters": int, "links": int, "rays": int, "particles_emitted": int, "particles_stored": int,
     "caustic_textures": list,
     "memory": {k: int for k in ("elements", "links", "particles", "octree", "caustic_textures", "layers", "ray_scene", "peak_rss")},
@@ -117,6 +119,20 @@ class Solve(CliTest):
             self.assertLessEqual({"name", "seconds", "share"}, set(phase))
         self.assertGreater(s["time"]["total"], 0)
         self.assertGreater(s["memory"]["peak_rss"], 1 << 20)
+
+    def test_error_is_measured(self):
+        s = json.loads(self.run_cli("solve", self.room, "--quality", "draft", "--stats", "-").stdout)
+        audit = s["error_audit"]
+        self.assertGreater(audit["points"], 200)
+        self.assertEqual(s["error_estimate"], audit["rms"] or audit["high"])
+        self.assertLessEqual(audit["low"], audit["rms"])
+        self.assertLessEqual(audit["rms"], audit["high"])
+        # Better qualities follow until the wish is met, and where none meets it that is said.
+        easy = self.run_cli("solve", self.room, "--error", "0.9", "--stats", "-")
+        self.assertEqual((json.loads(easy.stdout)["quality"], easy.stderr), ("draft", ""))
+        hard = self.run_cli("solve", self.room, "--error", "0.00001", "--stats", "-")
+        self.assertEqual(json.loads(hard.stdout)["quality"], "fine")
+        self.assertIn("asked for an error of 0.0 %", hard.stderr)
 
     def test_statistics_to_standard_output(self):
         self.compare_keys(json.loads(self.run_cli("solve", self.room, "--quality", "draft", "--stats", "-").stdout), STATISTICS)

@@ -55,6 +55,16 @@ TEST(ConvergenceLogTest, RunsAreToldApartAndTimeAddsUp) {
         EXPECT_EQ(log.samples()[i].run, runs[i]) << i;
         EXPECT_NEAR(log.samples()[i].total_seconds, totals[i], 1e-12) << i;
     }
+    // The same picture again, its error measured: known better, not another point in time.
+    Solution measured = picture(4.0, 0.05, true, true);
+    measured.statistics.audit.points = 500;
+    measured.statistics.audit.rms = 0.05;
+    log.add(measured);
+    ASSERT_EQ(log.samples().size(), 5U);
+    EXPECT_EQ(log.samples()[4].run, 4);
+    EXPECT_EQ(log.samples()[4].estimate, 0.02);
+    EXPECT_EQ(log.samples()[4].measured, 0.05);
+    EXPECT_NEAR(log.samples()[4].total_seconds, 10.7, 1e-12);
     log.clear();
     log.add(picture(30.0, 0.02, true, false)); // from a project
     EXPECT_EQ(log.samples()[0].kind, Kind::Stored);
@@ -87,12 +97,17 @@ TEST_F(Convergence, ShowsTheFiguresOfTheSolutionAndSavesThePlot) {
     ASSERT_NE(dock, nullptr);
     EXPECT_TRUE(dock->isVisible());
     open_sample();
-    ASSERT_TRUE(QTest::qWaitFor([&] { return window->engine().solution() && window->engine().solution()->final; }, 60000));
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { // complete, and its error measured
+            return window->engine().status().state == SessionStatus::State::Idle && window->engine().solution() &&
+                   window->engine().solution()->final;
+        },
+        60000));
     settle();
     const Statistics& s = window->engine().solution()->statistics;
     auto* tree = window->findChild<QTreeWidget*>(QStringLiteral("convergence_figures"));
     const auto value = [&](const QString& key) {
-        const auto found = tree->findItems(key, Qt::MatchExactly | Qt::MatchRecursive);
+        const auto found = tree->findItems(key, Qt::MatchExactly);
         return found.isEmpty() ? QString() : found[0]->text(1);
     };
     EXPECT_EQ(value(QStringLiteral("rays")), QLocale().toString(qulonglong(s.rays)));
@@ -106,7 +121,10 @@ TEST_F(Convergence, ShowsTheFiguresOfTheSolutionAndSavesThePlot) {
     ASSERT_FALSE(samples.empty());
     EXPECT_EQ(samples.back().kind, ConvergenceSample::Kind::Final);
     EXPECT_EQ(samples.back().seconds, s.time.solve);
-    EXPECT_GE(window->findChild<ConvergencePlot*>()->points(), 1);
+    EXPECT_GT(samples.back().estimate, 0.0);
+    EXPECT_GT(samples.back().measured, 0.0) << "complete light is measured";
+    EXPECT_EQ(samples.back().measured, s.error_estimate);
+    EXPECT_GE(window->findChild<ConvergencePlot*>()->points(), 2);
 
     const QString csv = folder.filePath(QStringLiteral("c.csv"));
     ASSERT_TRUE(window->convergence().save(csv));

@@ -44,6 +44,17 @@ void ConvergenceLog::add(const Solution& solution) {
     sample.kind = kind_of(solution);
     sample.statistics = solution.statistics;
     sample.seconds = sample.kind == Kind::Stored ? 0.0 : solution.statistics.time.solve;
+    const ErrorAudit& audit = solution.statistics.audit;
+    sample.measured = audit.points > 0 ? audit.rms : 0.0;
+    sample.estimate = audit.points > 0 ? 0.0 : solution.statistics.error_estimate;
+    if (!samples_.empty() && sample.measured > 0.0 && samples_.back().kind == sample.kind &&
+        samples_.back().measured == 0.0 && samples_.back().seconds == sample.seconds) {
+        sample.run = samples_.back().run;
+        sample.total_seconds = samples_.back().total_seconds;
+        sample.estimate = samples_.back().estimate;
+        samples_.back() = std::move(sample);
+        return;
+    }
     const bool goes_on = !samples_.empty() && samples_.back().kind == Kind::First &&
                          (sample.kind == Kind::First || sample.kind == Kind::Final) &&
                          sample.seconds >= samples_.back().seconds;
@@ -59,15 +70,15 @@ void ConvergenceLog::add(const Solution& solution) {
 }
 
 std::string ConvergenceLog::csv() const {
-    std::string out = "run,kind,total_seconds,seconds,final";
+    std::string out = "run,kind,total_seconds,seconds,final,estimate";
     for (const StatisticsFigure& figure : statistics_figures({})) {
         out += "," + figure.key;
     }
     out += "\n";
     for (const ConvergenceSample& sample : samples_) {
         const bool final = sample.kind == ConvergenceSample::Kind::Final || sample.kind == ConvergenceSample::Kind::Stored;
-        out += fmt::format("{},{},{},{},{}", sample.run, kind_name(sample.kind), sample.total_seconds, sample.seconds,
-                           final ? 1 : 0);
+        out += fmt::format("{},{},{},{},{},{}", sample.run, kind_name(sample.kind), sample.total_seconds, sample.seconds,
+                           final ? 1 : 0, sample.estimate);
         for (const StatisticsFigure& figure : statistics_figures(sample.statistics)) {
             out += std::visit([](auto v) { return fmt::format(",{}", +v); }, figure.value);
         }

@@ -21,6 +21,8 @@ struct ConvergenceSample {
     int run = 0;              ///< solutions and updates counted from 1; a first picture and the final one are one run
     double seconds = 0;       ///< run time within its run
     double total_seconds = 0; ///< run time of the session so far
+    double estimate = 0;      ///< relative error by the solution's own samples; 0 = not known
+    double measured = 0;      ///< relative error found by an audit (Statistics::audit); 0 = none was made
     Statistics statistics;
 };
 /// "first", "hurried", ...: as in the CSV.
@@ -30,6 +32,7 @@ const char* kind_name(ConvergenceSample::Kind kind);
 class ConvergenceLog {
 public:
     void clear();
+    /// A picture whose error has been measured takes the place of the same one before that.
     void add(const Solution& solution);
     [[nodiscard]] const std::vector<ConvergenceSample>& samples() const { return samples_; }
     /// One line for every picture. The columns of `atrium-cli solve --curve` but for the distance to a reference, and the

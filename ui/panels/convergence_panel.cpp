@@ -238,7 +238,7 @@ void ConvergencePanel::refresh_figures() {
                 set_row(root, key, figure_text(figure));
                 continue;
             }
-            if (parent == nullptr) { // counts come first, then times, then the other groups
+            if (phases_ == nullptr && key.startsWith(QLatin1StringView("memory."))) { // after the counts
                 show_times(s);
             }
             if (parent == nullptr || parent->text(0) != key.left(point)) {

@@ -4,6 +4,7 @@
 #include <QChartView>
 #include <QEvent>
 #include <QGraphicsLayout>
+#include <QLegendMarker>
 #include <QLineSeries>
 #include <QPainter>
 #include <QSaveFile>
@@ -21,10 +22,10 @@ namespace {
 // Told apart by shape and words too, not by colour alone (Okabe and Ito's colours, 2008).
 const QColor kLine(0, 114, 178);
 const QColor kLineInTheDark(86, 180, 233);
-const QColor kUpdates(230, 159, 0);
+const QColor kUpdates(120, 120, 200);
 const QColor kNow(130, 130, 130);
 
-double shown_error(const ConvergenceSample& sample) { return 100.0 * sample.statistics.error_estimate; }
+const QColor kMeasured(213, 94, 0);
 
 } // namespace
 
@@ -35,28 +36,44 @@ struct ConvergencePlot::Impl {
     QValueAxis* error = new QValueAxis;
     QLineSeries* now = new QLineSeries;
     QScatterSeries* updates = new QScatterSeries;
+    QScatterSeries* measured = new QScatterSeries;
+    std::vector<QLineSeries*> bounds; ///< of what was measured, one each
     QColor line_color = kLine;
     std::vector<QLineSeries*> runs; ///< one each, in order; more than are needed stay empty
 
-    QLineSeries* run(std::size_t index) {
-        while (runs.size() <= index) {
-            auto* line = new QLineSeries;
-            line->setName(tr("Solutions"));
-            chart->addSeries(line);
-            line->attachAxis(time);
-            line->attachAxis(error);
-            line->setPen(QPen(line_color, 2.0));
-            line->setPointsVisible(true);
-            runs.push_back(line);
+    /// Line number `index` of a kind, made where there is none yet.
+    QLineSeries* line(std::vector<QLineSeries*>& lines, std::size_t index) {
+        while (lines.size() <= index) {
+            auto* made = new QLineSeries;
+            chart->addSeries(made);
+            made->attachAxis(time);
+            made->attachAxis(error);
+            lines.push_back(made);
+            name(*made, lines);
         }
-        return runs[index];
+        return lines[index];
+    }
+    void name(QLineSeries& made, const std::vector<QLineSeries*>& lines) {
+        const bool is_run = &lines == &runs;
+        made.setPen(is_run ? QPen(line_color, 2.0) : QPen(kMeasured, 1.5));
+        made.setPointsVisible(is_run);
+        made.setName(is_run ? tr("estimate") : QString());
+        const bool told = is_run && lines.size() == 1; // once in the legend
+        for (QLegendMarker* marker : chart->legend()->markers(&made)) {
+            marker->setVisible(told);
+        }
     }
     void set_colors(bool dark) {
         line_color = dark ? kLineInTheDark : kLine;
         chart->setTheme(dark ? QChart::ChartThemeDark : QChart::ChartThemeLight);
-        for (QLineSeries* line : runs) {
-            line->setPen(QPen(line_color, 2.0));
+        for (QLineSeries* run : runs) {
+            run->setPen(QPen(line_color, 2.0));
         }
+        for (QLineSeries* bound : bounds) {
+            bound->setPen(QPen(kMeasured, 1.5));
+        }
+        measured->setColor(kMeasured);
+        measured->setBorderColor(Qt::transparent);
         now->setPen(QPen(kNow, 1.0, Qt::DashLine));
         updates->setColor(kUpdates);
         updates->setBorderColor(Qt::transparent);
@@ -72,7 +89,8 @@ ConvergencePlot::ConvergencePlot(QWidget* parent) : QWidget(parent), impl_(std::
     impl_->view->setAccessibleName(tr("Error against run time"));
     setMinimumHeight(160);
     QChart* chart = impl_->chart;
-    chart->legend()->hide();
+    chart->legend()->setAlignment(Qt::AlignTop);
+    chart->legend()->setMarkerShape(QLegend::MarkerShapeFromSeries);
     chart->layout()->setContentsMargins(0, 0, 0, 0);
     chart->setMargins(QMargins(4, 4, 8, 4));
     impl_->time->setTitleText(tr("run time, s"));
@@ -81,10 +99,17 @@ ConvergencePlot::ConvergencePlot(QWidget* parent) : QWidget(parent), impl_(std::
     chart->addAxis(impl_->error, Qt::AlignLeft);
     impl_->updates->setMarkerShape(QScatterSeries::MarkerShapeRectangle);
     impl_->updates->setMarkerSize(6.0);
-    for (QXYSeries* series : {static_cast<QXYSeries*>(impl_->now), static_cast<QXYSeries*>(impl_->updates)}) {
+    impl_->updates->setName(tr("updates"));
+    impl_->measured->setName(tr("measured"));
+    impl_->measured->setMarkerSize(9.0);
+    for (QXYSeries* series : {static_cast<QXYSeries*>(impl_->now), static_cast<QXYSeries*>(impl_->updates),
+                              static_cast<QXYSeries*>(impl_->measured)}) {
         chart->addSeries(series);
         series->attachAxis(impl_->time);
         series->attachAxis(impl_->error);
+    }
+    for (QLegendMarker* marker : chart->legend()->markers(impl_->now)) {
+        marker->setVisible(false); // the clock needs no name
     }
     impl_->set_colors(palette().color(QPalette::Window).lightness() < 128);
     show_samples({}, false, -1.0);
@@ -97,15 +122,23 @@ void ConvergencePlot::show_samples(std::span<const ConvergenceSample> samples, b
     double last_time = std::max(now, 0.0);
     double largest = 0.0;
     QList<QPointF> updates;
+    QList<QPointF> measured;
+    std::vector<QList<QPointF>> bounds;
     std::vector<QList<QPointF>> lines;
     int run = 0;
     for (const ConvergenceSample& sample : samples) {
         const double at = whole_session ? sample.total_seconds : sample.seconds;
-        const QPointF point(at, shown_error(sample));
         last_time = std::max(last_time, at);
-        if (!(point.y() > 0.0)) {
+        if (sample.measured > 0.0) {
+            const ErrorAudit& audit = sample.statistics.audit;
+            measured.append({at, 100.0 * sample.measured});
+            bounds.push_back({{at, 100.0 * audit.low}, {at, 100.0 * audit.high}});
+            largest = std::max({largest, 100.0 * sample.measured, 100.0 * audit.high});
+        }
+        if (!(sample.estimate > 0.0)) {
             continue; // not known yet
         }
+        const QPointF point(at, 100.0 * sample.estimate);
         largest = std::max(largest, point.y());
         if (sample.kind == Kind::Hurried || sample.kind == Kind::Settled) {
             updates.append(point);
@@ -117,10 +150,15 @@ void ConvergencePlot::show_samples(std::span<const ConvergenceSample> samples, b
         }
         lines.back().append(point);
     }
-    for (std::size_t i = 0; i < std::max(lines.size(), impl_->runs.size()); ++i) {
-        impl_->run(i)->replace(i < lines.size() ? lines[i] : QList<QPointF>());
-    }
+    const auto fill = [this](std::vector<QLineSeries*>& series, const std::vector<QList<QPointF>>& with) {
+        for (std::size_t i = 0; i < std::max(with.size(), series.size()); ++i) {
+            impl_->line(series, i)->replace(i < with.size() ? with[i] : QList<QPointF>());
+        }
+    };
+    fill(impl_->runs, lines);
+    fill(impl_->bounds, bounds);
     impl_->updates->replace(updates);
+    impl_->measured->replace(measured);
     const auto axis = [](QValueAxis* shown, double end, double least) {
         shown->setRange(0.0, std::max(end, least));
         shown->applyNiceNumbers();
@@ -135,7 +173,7 @@ void ConvergencePlot::show_samples(std::span<const ConvergenceSample> samples, b
 }
 
 int ConvergencePlot::points() const {
-    qsizetype count = impl_->updates->count();
+    qsizetype count = impl_->updates->count() + impl_->measured->count();
     for (const QLineSeries* line : impl_->runs) {
         count += line->count();
     }

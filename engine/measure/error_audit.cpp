@@ -1,0 +1,183 @@
+#include "engine/measure/error_audit.h"
+
+#include "engine/base/rng.h"
+#include "engine/raycast/ray_scene.h"
+#include "engine/reference/lit_places.h"
+#include "engine/reference/reference.h"
+#include "engine/solver/gi_engine.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace atrium {
+namespace {
+
+constexpr float kSeen = 0.1F;       // of what a place sees must be farther than 5 cm: LitPlace::open
+constexpr double kDark = 0.05;      // of the mean: darker places count as that bright
+constexpr double kNoiseShare = 0.1; // of the error's square that noise may stand for
+constexpr int kResamples = 400;
+
+struct Comparison {
+    std::vector<double> squares; ///< of the relative differences, less the reference's own variance
+    double noise = 0;            ///< standard error of the mean square that noise alone causes
+    double bias = 0;
+    double bias_error = 0;
+};
+
+double mean_of(const std::vector<double>& values) {
+    double sum = 0.0;
+    for (const double v : values) {
+        sum += v;
+    }
+    return values.empty() ? 0.0 : sum / double(values.size());
+}
+
+Comparison compare(const std::vector<SensorReading>& ours, const std::vector<ReferenceReading>& truth) {
+    Comparison out;
+    double sum = 0.0;
+    double true_sum = 0.0;
+    double variance = 0.0;
+    std::vector<std::size_t> used; // where the truth is that of the same surface: not where two lie back to back
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+        if (!truth[i].on_surface) {
+            continue;
+        }
+        used.push_back(i);
+        sum += luminance(ours[i].irradiance);
+        true_sum += luminance(truth[i].irradiance);
+        variance += truth[i].standard_error * truth[i].standard_error;
+    }
+    const double floor = kDark * true_sum / double(std::max<std::size_t>(used.size(), 1));
+    double noise = 0.0;
+    for (const std::size_t i : used) {
+        const double e = luminance(ours[i].irradiance);
+        const double r = luminance(truth[i].irradiance);
+        const double s = truth[i].standard_error;
+        // A noisy truth in the denominator would make the error look larger than it is: as far as noise leaves it open,
+        // the truth is what the solution says.
+        const double scale = std::max(std::clamp(e, r - 2.0 * s, r + 2.0 * s), floor);
+        const double d = e - r;
+        out.squares.push_back(scale > 0.0 ? (d * d - s * s) / (scale * scale) : 0.0);
+        const double rest = scale > 0.0 ? s * s / (scale * scale) : 0.0;
+        // Variance of (d + noise)^2 - s^2 about d^2.
+        noise += 2.0 * rest * rest + 4.0 * rest * std::max(out.squares.back(), 0.0);
+    }
+    out.noise = std::sqrt(noise) / double(std::max<std::size_t>(used.size(), 1));
+    if (true_sum > 0.0) {
+        out.bias = sum / true_sum - 1.0;
+        out.bias_error = std::sqrt(variance) / true_sum;
+    }
+    return out;
+}
+
+/// Bounds of the mean that hold 95 times in 100, by drawing the values again and again.
+void bootstrap(const std::vector<double>& values, std::uint32_t seed, double& low, double& high) {
+    std::vector<double> means;
+    for (int k = 0; k < kResamples; ++k) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const std::uint64_t h = hash_combine(hash_combine(0xB007ULL + seed, std::uint64_t(k)), i);
+            sum += values[h % values.size()];
+        }
+        means.push_back(sum / double(values.size()));
+    }
+    std::sort(means.begin(), means.end());
+    low = means[std::size_t(0.025 * kResamples)];
+    high = means[std::size_t(0.975 * kResamples) - 1];
+}
+
+} // namespace
+
+AuditSettings audit_settings(SolverSettings::Quality quality) {
+    switch (quality) {
+    case SolverSettings::Quality::Draft: return {256, 128, 256};
+    case SolverSettings::Quality::Normal: return {512, 256, 1024};
+    case SolverSettings::Quality::Fine: return {1024, 512, 4096};
+    }
+    return {};
+}
+
+Result<ErrorAudit> audit_error(const Scene& scene, const Solution& solution, const AuditSettings& settings,
+                               const RunContext& context) {
+    const auto start = RunContext::Clock::now();
+    std::vector<SensorPlace> places;
+    std::vector<ReferencePoint> points;
+    {
+        const RayScene rays(scene);
+        const PathTracer tracer(scene, rays);
+        for (const LitPlace& place : lit_places(rays, tracer, settings.points, 0xAD17U + settings.seed)) {
+            if (place.open >= kSeen) {
+                places.push_back({place.position, place.normal});
+                points.push_back({place.position, place.normal});
+            }
+        }
+    }
+    const auto nothing = [] {
+        return fail("", "", "there is nothing to compare: light reaches no surface that scatters it",
+                    "Add a lamp, daylight or a matt surface.");
+    };
+    if (places.empty()) {
+        return nothing();
+    }
+    const std::vector<SensorReading> ours = read_surfaces(scene, solution, places);
+    ErrorAudit out;
+    Comparison found;
+    ReferenceSettings wanted;
+    wanted.seed = std::uint32_t(hash_combine(0xE44ULL, settings.seed));
+    std::uint64_t paths = std::min(settings.least_paths, settings.most_paths);
+    for (;;) { // a quick look first, then as long as its noise and its error ask for
+        wanted.paths = paths;
+        auto truth = reference_irradiance(scene, points, wanted, context);
+        if (!truth) {
+            return tl::unexpected(truth.error());
+        }
+        if (!truth->run.reached) {
+            return fail("", "", "the audit was stopped", "Give it more time.");
+        }
+        found = compare(ours, truth->points);
+        out.paths = truth->run.paths;
+        out.rays += truth->run.rays;
+        const double per_path = double(truth->run.rays) / double(truth->run.paths);
+        const auto affordable =
+            std::uint64_t(std::max(settings.ray_share * double(solution.statistics.rays), 1e6) / per_path);
+        const std::uint64_t most = std::min(settings.most_paths, affordable);
+        const double allowed = kNoiseShare * std::max(mean_of(found.squares), 0.0);
+        if (found.noise <= allowed || paths >= most) {
+            break;
+        }
+        // Noise of a square falls with the number of paths.
+        const double more = allowed > 0.0 ? std::clamp(found.noise / allowed, 2.0, 1e6) : 1e6;
+        paths = std::min(most, std::uint64_t(double(paths) * more));
+        ++wanted.seed;
+    }
+    if (found.squares.empty()) {
+        return nothing();
+    }
+    out.points = std::uint32_t(found.squares.size());
+    double low = 0.0;
+    double high = 0.0;
+    bootstrap(found.squares, settings.seed, low, high);
+    out.rms = std::sqrt(std::max(mean_of(found.squares), 0.0));
+    out.low = std::sqrt(std::max(low, 0.0));
+    out.high = std::sqrt(std::max(high, 0.0));
+    out.bias = found.bias;
+    out.bias_error = found.bias_error;
+    out.seconds = std::chrono::duration<double>(RunContext::Clock::now() - start).count();
+    return out;
+}
+
+std::shared_ptr<const Solution> audited(const Scene& scene, std::shared_ptr<const Solution> solution,
+                                        const AuditSettings& settings, const RunContext& context) {
+    const auto audit = audit_error(scene, *solution, settings, context);
+    if (!audit) {
+        return solution;
+    }
+    auto out = std::make_shared<Solution>(*solution);
+    out->statistics.audit = *audit;
+    // Where noise hides an error that is smaller than itself, the bound is what is known.
+    out->statistics.error_estimate = audit->rms > 0.0 ? audit->rms : audit->high;
+    return out;
+}
+
+} // namespace atrium

@@ -1,0 +1,37 @@
+// How far a solution is from the truth, by asking brute force at places of its own choosing.
+#pragma once
+
+#include "engine/base/result.h"
+#include "engine/base/run_context.h"
+#include "engine/solver/solution.h"
+
+#include <cstdint>
+
+namespace atrium {
+
+/// How much an audit may cost. Counts, not seconds: the same solution gets the same figures on any machine.
+struct AuditSettings {
+    std::size_t points = 512;
+    std::uint64_t least_paths = 256; ///< of brute force per point
+    std::uint64_t most_paths = 1024;
+    /// Beyond the least, as many rays as this share of those that the solution took, or a million where that is more.
+    double ray_share = 0.2;
+    std::uint32_t seed = 1;
+};
+
+/// What a quality can afford: some hundredths of what it takes to solve.
+AuditSettings audit_settings(SolverSettings::Quality quality);
+
+/// Reads `solution` at random places of the diffuse surfaces of `scene`, gaps that nobody looks into left out, and compares
+/// it with the reference there, whose own noise is taken out. As many paths as tell the error from that noise, at most
+/// settings.most_paths. The bounds are those of a bootstrap over the places. The same figures for any number of threads. An
+/// error where no surface scatters light that light can reach, or when stopped.
+Result<ErrorAudit> audit_error(const Scene& scene, const Solution& solution, const AuditSettings& settings,
+                               const RunContext& context);
+
+/// The same solution with an audit in its statistics, which then is its error_estimate too; as it was where the audit could
+/// not be made or was stopped.
+std::shared_ptr<const Solution> audited(const Scene& scene, std::shared_ptr<const Solution> solution,
+                                        const AuditSettings& settings, const RunContext& context);
+
+} // namespace atrium
