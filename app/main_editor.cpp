@@ -1,5 +1,6 @@
 // The editor: atrium [FILE]. With --screenshot FILE.png it opens, waits for the light, takes its own picture and quits.
 #include "ui/viewport/viewport_widget.h"
+#include "ui/window/false_color_bar.h"
 #include "ui/window/file_controller.h"
 #include "ui/window/main_window.h"
 
@@ -40,6 +41,10 @@ private:
     }
     void take() {
         if (taken_) {
+            return;
+        }
+        if (window_.false_color_bar().fitting()) {
+            QTimer::singleShot(500, this, [this] { take(); });
             return;
         }
         taken_ = true;

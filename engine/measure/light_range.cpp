@@ -9,6 +9,7 @@ namespace {
 constexpr std::size_t kPoints = 16384;
 constexpr double kDark = 0.05; ///< of the area, left out at the lower end
 constexpr double kBright = 0.01;
+constexpr double kHidden = 0.05; ///< of the median: what gets less lies inside or behind things
 
 struct Side {
     const SurfaceLayer* layer;
@@ -91,7 +92,7 @@ LightRange light_range(const Scene& scene, const Solution& solution, LightQuanti
     }
     std::sort(amounts.begin(), amounts.end());
     const auto at = [&](double share) { return amounts[std::size_t(share * double(amounts.size() - 1))]; };
-    return {at(kDark), at(1.0 - kBright)};
+    return {std::max(at(kDark), kHidden * at(0.5)), at(1.0 - kBright)};
 }
 
 FalseColor fitted_scale(FalseColor scale, const LightRange& range) {

@@ -8,7 +8,8 @@ namespace atrium {
 
 /// Between which amounts nearly all of the light on matt surfaces lies; lux or cd/m2.
 struct LightRange {
-    double low = 0;  ///< five per cent of the surfaces' area are darker: behind and below things it is always dark
+    double low = 0;  ///< five per cent of the surfaces' area are darker; not below a twentieth of the median, since
+                     ///< what lies inside and behind things is never seen
     double high = 0; ///< one per cent of it is brighter; 0 = no light
 };
 

@@ -79,7 +79,8 @@ FalseColorBar::FalseColorBar(Document& document, EngineLink& engine, QWidget* pa
         FalseColor& fitted = fitted_[std::size_t(q)];
         fitted.quantity = q;
         fitted.logarithmic = choices_[std::size_t(q)].logarithmic;
-        fitted = valid_scale(fitted);
+        fitted.minimum = 1.0; // until the scene's light is known
+        fitted.maximum = 1000.0;
     }
     connect(kind_, &QComboBox::activated, this, [this](int index) {
         choice().logarithmic = index == 1;

@@ -28,6 +28,8 @@ public:
     [[nodiscard]] std::optional<LightQuantity> quantity() const { return quantity_; }
     void set_contours(bool on);
     void set_shares(const LightShares& shares); ///< of the light that is on show: the range is theirs
+    /// The automatic range is being found.
+    [[nodiscard]] bool fitting() const { return searching_; }
     /// What the view shows now.
     [[nodiscard]] std::optional<FalseColor> scale() const;
 
