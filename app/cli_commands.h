@@ -16,6 +16,7 @@ void add_edit(CLI::App& app, int& status);
 void add_reference(CLI::App& app, int& status);
 void add_compare(CLI::App& app, int& status);
 void add_inspect(CLI::App& app, int& status);
+void add_bench(CLI::App& app, int& status);
 void add_convert(CLI::App& app, int& status);
 
 } // namespace atrium::cli

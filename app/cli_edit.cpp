@@ -22,6 +22,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kVerified = 4096; // places at which light is compared
+
 struct Arguments {
     std::string file;
     std::string script;
@@ -158,10 +160,15 @@ private:
             }
             return false;
         }
+        const double fresh_seconds = seconds_since_start() - before;
+        std::vector<SensorPlace> places = seen_places(player.scene(), kVerified);
+        if (places.empty()) { // all is dark, or ought to be
+            places = spread_places(player.scene(), **result, kVerified);
+        }
         played.verification =
-            Verification{seconds_since_start() - before, light_difference(player.scene(), *player.light(), **result), {}};
+            Verification{fresh_seconds, light_difference(player.scene(), *player.light(), **result, places), {}};
         if (const auto& settled = played.report.settled_light) {
-            played.verification->settled = light_difference(player.scene(), *settled, **result).rel_rms;
+            played.verification->settled = light_difference(player.scene(), *settled, **result, places).rel_rms;
         }
         return true;
     }

@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
         add_reference(app, status);
         add_compare(app, status);
         add_inspect(app, status);
+        add_bench(app, status);
         add_convert(app, status);
         app.parse(argc, argv);
     } catch (const CLI::Success& success) { // --help, --version

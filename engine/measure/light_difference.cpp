@@ -1,6 +1,8 @@
 #include "engine/measure/light_difference.h"
 
 #include "engine/measure/compare.h"
+#include "engine/raycast/ray_scene.h"
+#include "engine/reference/lit_places.h"
 
 #include <cmath>
 
@@ -79,9 +81,26 @@ std::vector<SensorPlace> spread_places(const Scene& scene, const Solution& solut
     return out;
 }
 
+std::vector<SensorPlace> seen_places(const Scene& scene, std::size_t count) {
+    constexpr float kSeen = 0.1F;
+    const RayScene rays(scene);
+    const PathTracer tracer(scene, rays);
+    std::vector<SensorPlace> out;
+    for (const LitPlace& place : lit_places(rays, tracer, count, 0x5EE7U)) {
+        if (place.open >= kSeen) {
+            out.push_back({place.position, place.normal});
+        }
+    }
+    return out;
+}
+
 LightDifference light_difference(const Scene& scene, const Solution& solution, const Solution& reference,
                                  std::size_t count) {
-    const std::vector<SensorPlace> places = spread_places(scene, reference, count);
+    return light_difference(scene, solution, reference, spread_places(scene, reference, count));
+}
+
+LightDifference light_difference(const Scene& scene, const Solution& solution, const Solution& reference,
+                                 std::span<const SensorPlace> places) {
     const std::vector<SensorReading> ours = read_surfaces(scene, solution, places);
     const std::vector<SensorReading> theirs = read_surfaces(scene, reference, places);
     std::vector<double> a;

@@ -4,6 +4,7 @@
 #include "engine/solver/gi_engine.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace atrium {
@@ -12,6 +13,11 @@ namespace atrium {
 /// same ones every time: one in each equal share of the summed area, at varying points of its triangle.
 std::vector<SensorPlace> spread_places(const Scene& scene, const Solution& solution, std::size_t count);
 
+/// About `count` places that light can reach and that one can look at, evenly by area, the same ones every time: inside of
+/// solids and in gaps (LitPlace::open) nobody cares for light, and two solutions may differ there by as much as they like.
+/// Empty where the scene has no light.
+std::vector<SensorPlace> seen_places(const Scene& scene, std::size_t count);
+
 /// Figures over all three channels, as in `difference()`.
 struct LightDifference {
     std::size_t points = 0; ///< read from both
@@ -19,7 +25,10 @@ struct LightDifference {
     double rel_max = 0;     ///< largest |a - b| / (|b| + 1 % of the mean)
     double energy_rel = 0;  ///< |a - b| / b of the light on all surfaces together
 };
-/// `solution` against `reference`, both of `scene`, at `count` places.
+/// `solution` against `reference`, both of `scene`, where both have light of `places`.
+LightDifference light_difference(const Scene& scene, const Solution& solution, const Solution& reference,
+                                 std::span<const SensorPlace> places);
+/// The same at `count` places of spread_places().
 LightDifference light_difference(const Scene& scene, const Solution& solution, const Solution& reference,
                                  std::size_t count = 4096);
 

@@ -130,8 +130,9 @@ int run(const Arguments& a) {
             fmt::print(stderr, "{}\n", truth.error().message());
             return 1;
         }
-        const auto followed = light_difference(scene, *last, **truth, a.points);
-        const auto stayed = light_difference(scene, **first, **truth, a.points);
+        const std::vector<SensorPlace> places = seen_places(scene, a.points);
+        const auto followed = light_difference(scene, *last, **truth, places);
+        const auto stayed = light_difference(scene, **first, **truth, places);
         slide(scene, 0.0F);
         const auto back = engine.update(scene, options, {});
         const double first_time = times.front();

@@ -1,7 +1,7 @@
 # atrium-cli as a whole program, against CONTRACTS: exit status, streams, files, names of figures.
 find_package(Python3 3.9 COMPONENTS Interpreter REQUIRED)
 if(TARGET atrium-cli)
-  foreach(group Requests InfoAndCheck Solve Stopping Measure Render Edit Reference Inspect Compare Convert SunlitRoom SharedScenes)
+  foreach(group Requests InfoAndCheck Solve Stopping Measure Render Edit Bench Reference Inspect Compare Convert SunlitRoom SharedScenes)
     add_test(NAME cli.${group}
              COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/contracts.py ${group} -v)
     set_tests_properties(cli.${group} PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77 ENVIRONMENT

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Runs atrium-cli on small scenes and checks what scripts rely on. One argument: the group (a TestCase below)."""
+import csv
 import json
 import os
 import signal
@@ -33,7 +34,7 @@ class Requests(CliTest):
     def test_help_and_version(self):
         self.assertIn("solve", self.run_cli("--help").stdout)
         self.assertRegex(self.run_cli("--version").stdout, r"^atrium-cli \d+\.\d+\.\d+\n$")
-        for name in ("info", "check", "solve", "measure", "render", "edit", "reference", "compare", "convert"):
+        for name in ("info", "check", "solve", "measure", "render", "edit", "reference", "bench", "compare", "convert"):
             self.assertIn("FILE" if name not in ("compare", "convert") else name, self.run_cli(name, "--help").stdout)
 
     def test_wrong_requests(self):
@@ -370,6 +371,50 @@ class Render(CliTest):
         self.refused("render", self.room, "-o", self.path("a.png"), "--camera", "9")
         for size in ("64", "64x", "0x64", "64x-1", "64x48x2", "99999x10", "axb"):
             self.refused("render", self.room, "-o", self.path("a.png"), "--size=" + size, says=[size])
+
+
+class Bench(CliTest):
+    def crate_room(self):
+        """A project with a crate in it, and its drag beside it."""
+        os.mkdir(self.path("crate"))
+        add = self.write("add.json", json.dumps({"edits": [
+            {"kind": "add", "shape": "box", "name": "Crate", "size": [0.6, 0.6, 0.6], "translation": [1, 0.3, 1]}]}))
+        self.run_cli("edit", self.room, "--script", add, "--quality", "draft", "-o", self.path("room.atrium"))
+        self.run_cli("convert", self.path("room.atrium"), self.path("crate/crate.glb"))
+        drag = {"kind": "drag", "node": "Crate", "positions": [[1 + 0.2 * i, 0.3, 1.2] for i in range(6)]}
+        self.write("crate/drag.json", json.dumps({"edits": [drag]}))
+        return self.path("crate/crate.glb")
+
+    def test_paper_and_solve(self):
+        scene = self.crate_room()
+        done = self.run_cli("bench", scene, self.room, "--checks", "2", "-o", self.path("tables"))
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(sorted(os.listdir(self.path("tables"))),
+                         ["crate_frames.csv"] + [f"{t}.{e}" for t in ("paper", "paper_errors", "solve") for e in ("csv", "md")])
+        for name in ("paper", "paper_errors", "solve"):
+            self.assertIn(self.read(f"tables/{name}.md"), done.stdout)
+        self.assertEqual(len(self.read("tables/paper.csv").splitlines()), 2)  # the room has no drag
+        self.assertEqual(len(self.read("tables/solve.csv").splitlines()), 3)
+        frames = [{k: float(v) if v else None for k, v in row.items()}
+                  for row in csv.DictReader(self.read("tables/crate_frames.csv").splitlines())]
+        self.assertEqual(len(frames), 6)
+        looked_at = [i for i, f in enumerate(frames) if f["settled_rms"] is not None]
+        self.assertEqual(looked_at, [2, 5])
+        for i in looked_at:
+            f = frames[i]
+            # Light that follows is nearer to the truth than light that stays, and settled light nearer still or as near.
+            self.assertLess(f["degraded_rms"], 0.5 * f["stayed_rms"])
+            self.assertLess(f["settled_rms"], 1.2 * f["degraded_rms"])
+            self.assertLess(f["settled_rms_where_changed"], 0.5)
+            self.assertGreater(f["changed_share"], 0)
+
+    def test_wrong_requests(self):
+        self.refused("bench", "--suite", "none")
+        self.refused("bench", self.room, "--suite", "paper", says=["drag.json"])
+        scene = self.crate_room()
+        self.write("crate/drag.json", '{"edits": [{"kind": "drag", "node": "Nobody", "positions": [[0, 0, 0]]}]}')
+        self.refused("bench", scene, "--suite", "paper", says=["drag.json", "Nobody"])
+        self.refused("bench", self.path("nowhere.glb"), says=["nowhere.glb"])
 
 
 class Edit(CliTest):

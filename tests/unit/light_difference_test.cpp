@@ -1,7 +1,10 @@
 // Two solutions compared at the same points of the same surfaces.
 #include "engine/measure/light_difference.h"
+#include "tests/support/rooms.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace atrium {
 namespace {
@@ -83,6 +86,27 @@ TEST_F(LightDifferenceTest, FiguresByHand) {
     EXPECT_NEAR(d.rel_max, 7.0 / 10.1, 1e-6);
     EXPECT_NEAR(d.energy_rel, 0.1, 1e-6);
     EXPECT_NEAR(light_difference(scene, light(Rgb(9.0F), Rgb(9.0F)), a).energy_rel, 0.1, 1e-6) << "never negative";
+}
+
+TEST(SeenPlaces, LeaveOutTheInsidesOfSolids) {
+    Scene room;
+    test::add_room(room, 4, 3, 5, test::add_material(room, 0.5F));
+    test::add_point_light(room, {2, 2.2, 2.5}, 1000);
+    Shape shape;
+    shape.geometry = Box{};
+    Node crate;
+    crate.name = "crate";
+    crate.shape = room.shapes.insert(shape);
+    crate.materials = {test::add_material(room, 0.5F)};
+    crate.transform.translation = {2, 0.5, 2.5}; // a unit box, on the floor
+    room.roots.push_back(room.nodes.insert(crate));
+    const auto places = seen_places(room, 2000);
+    EXPECT_GT(places.size(), 1900U);
+    const auto beneath = std::count_if(places.begin(), places.end(), [](const SensorPlace& p) {
+        return p.point.y < 1e-6 && std::abs(p.point.x - 2.0) < 0.5 && std::abs(p.point.z - 2.5) < 0.5;
+    });
+    EXPECT_EQ(beneath, 0) << "a square metre of floor lies inside the crate";
+    EXPECT_TRUE(std::any_of(places.begin(), places.end(), [](const SensorPlace& p) { return p.point.y < 1e-6; }));
 }
 
 TEST_F(LightDifferenceTest, ColourCountsWhereBrightnessIsTheSame) {
