@@ -4,6 +4,7 @@
 #include "engine/solver/gi_engine.h"
 #include "engine/view/false_color.h"
 #include "ui/viewport/light_meter.h"
+#include "ui/window/export_picture_dialog.h"
 #include "ui/window/false_color_bar.h"
 
 #include <QAction>
@@ -206,6 +207,47 @@ TEST_F(Measuring, AgreesWithTheCommandLineAtTheSamePoint) {
         EXPECT_NEAR(cells[9].toDouble(), light.illuminance, 1e-4 * light.illuminance) << i;
         EXPECT_NEAR(cells[10].toDouble(), light.standard_error, 1e-4 * light.standard_error) << i;
     }
+}
+
+TEST_F(Measuring, ExportedPicturesHaveTheColoursAndTheLegendOfTheView) {
+    open_lit();
+    trigger(ActionId::ShowIlluminance);
+    type(field("false_color_from"), "1");
+    type(field("false_color_to"), "1000");
+    settle();
+    trigger(ActionId::ExportPicture);
+    auto* settings = dialog<ExportPictureDialog>();
+    ASSERT_NE(settings, nullptr);
+    const auto fields = settings->findChildren<NumberField*>();
+    ASSERT_EQ(fields.size(), 3);
+    type(fields[0], "320");
+    type(fields[1], "200");
+    type(fields[2], "1");
+    const QString path = folder.filePath(QStringLiteral("lux.png"));
+    settings->render(path);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(path); }, 30000));
+    const QImage picture(path);
+    ASSERT_EQ(picture.size(), QSize(320, 200));
+    const auto of_map = [](const QColor& c) { // how far from the nearest colour of the scale
+        int nearest = 1000;
+        for (const std::uint32_t entry : color_map()) {
+            nearest = std::min(nearest, std::abs(c.red() - int(entry >> 16U & 0xFFU)) +
+                                            std::abs(c.green() - int(entry >> 8U & 0xFFU)) +
+                                            std::abs(c.blue() - int(entry & 0xFFU)));
+        }
+        return nearest;
+    };
+    int colored = 0;
+    for (int x = 0; x < 150; ++x) {
+        colored += of_map(picture.pixelColor(x, 100)) <= 6 ? 1 : 0;
+    }
+    EXPECT_GT(colored, 140) << "nothing but amounts";
+    int plate = 0;
+    for (int y = 0; y < 200; ++y) {
+        plate += picture.pixelColor(310, y).lightness() > 215 ? 1 : 0;
+    }
+    EXPECT_GT(plate, 60) << "the legend's plate";
+    trigger(ActionId::ShowPicture);
 }
 
 } // namespace
