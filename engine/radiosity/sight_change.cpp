@@ -35,6 +35,9 @@ SightChange::SightChange(const Hierarchy& hierarchy, const RayScene& rays, std::
     : h_(hierarchy), rays_(rays), moved_(moved.begin(), moved.end()) {
     for (const Displacement& d : displaced) {
         for (Box3 box : {d.before, d.now}) {
+            if (box.empty()) {
+                continue; // it is not there any more
+            }
             const float slack = 1e-4F + 1e-5F * box.diagonal(); // flat things have flat bounds
             box.min -= slack;
             box.max += slack;

@@ -15,7 +15,7 @@ namespace atrium {
 /// Bounds of one thing that moved, engine coordinates.
 struct Displacement {
     Box3 before; ///< where it stood when all sight was last known
-    Box3 now;
+    Box3 now;    ///< empty = it is hidden or removed
 };
 
 /// Radiosity that a hit sends back along its ray, lumen per square metre. Called from many threads.

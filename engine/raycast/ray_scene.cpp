@@ -19,6 +19,7 @@
 namespace atrium {
 namespace {
 
+constexpr double kAway = 20.0;    // diagonals of the scene down to where things are that are not shown
 constexpr int kMaxCrossings = 64; // panes and leaves in a row; beyond it the light is taken as absorbed
 
 bool lets_light_through(const Material& m) { return m.transmission > 0.0F || m.alpha_mode != Material::Alpha::Opaque; }
@@ -60,6 +61,7 @@ struct RayScene::Impl {
         DBox3 world; // Scene::world_bounds
         std::uint32_t first_surface = 0;
         std::uint32_t surfaces = 0;
+        std::optional<Node> absent; // hidden or removed since: what it was
     };
     // Whether a mesh is a solid whose insides stay dark is told by the first node that shows it, with its size.
     struct Inside {
@@ -70,6 +72,7 @@ struct RayScene::Impl {
     struct Changes {
         std::vector<NodeId> nodes;       // placed anew themselves, whatever they are
         std::vector<std::size_t> placed; // they and what is below them, into `placed`
+        std::vector<std::size_t> gone;   // hidden or removed, into `placed`
     };
     // What a node's new placement makes of it, before anything is changed.
     struct Replaced {
@@ -78,6 +81,7 @@ struct RayScene::Impl {
         dmat4 to_engine{1.0};
         std::vector<RaySurface> surfaces; // none: they stay as they are
         std::vector<Box3> bounds;
+        std::optional<Node> absent;
     };
 
     Scene scene;
@@ -139,7 +143,7 @@ struct RayScene::Impl {
 
     void add_node(NodeId id, const Node& node, const Shape& shape, const std::shared_ptr<const MeshData>& mesh,
                   std::map<const MeshData*, bool>& closed) {
-        Placed place{id, mesh, scene.world_matrix(id), scene.world_bounds(id), std::uint32_t(surfaces.size())};
+        Placed place{id, mesh, scene.world_matrix(id), scene.world_bounds(id), std::uint32_t(surfaces.size()), 0, {}};
         place.to_engine[3] -= dvec4(origin, 0.0);
         const auto positions = positions_of(*mesh, place.to_engine);
         std::shared_ptr<const std::vector<vec2>> domain;
@@ -267,22 +271,61 @@ struct RayScene::Impl {
             if (shape == nullptr) {
                 continue;
             }
-            if (next == placed.size() || placed[next].node != entry.id || was->shape != node->shape ||
-                was->materials != node->materials || scene.shapes.find(was->shape)->geometry != shape->geometry) {
+            for (; next < placed.size() && placed[next].node != entry.id; ++next) {
+                pass_over(next, out);
+            }
+            if (next == placed.size()) {
+                return std::nullopt; // new, or no longer in its order
+            }
+            was = placed[next].absent ? &*placed[next].absent : was;
+            if (was->shape != node->shape || was->materials != node->materials ||
+                scene.shapes.find(was->shape)->geometry != shape->geometry) {
                 return std::nullopt;
             }
-            if (entry.moved) {
+            if (entry.moved || placed[next].absent) {
                 out.placed.push_back(next);
             }
             ++next;
         }
-        return next == placed.size() ? std::optional(out) : std::nullopt;
+        for (; next < placed.size(); ++next) {
+            pass_over(next, out);
+        }
+        return out;
+    }
+
+    void pass_over(std::size_t index, Changes& out) const {
+        if (!placed[index].absent) {
+            out.gone.push_back(index);
+        }
+    }
+
+    // What is not shown any more is put where it does not matter, far below all else: so all that follows what moves follows
+    // this too, and when it comes back nothing has to be built.
+    [[nodiscard]] Replaced put_away(std::size_t index) const {
+        const Placed& place = placed[index];
+        const dvec3 off(0.0, -kAway * double(bounds.diagonal()), 0.0);
+        Replaced out{index, place.world, glm::translate(dmat4(1.0), off) * place.to_engine,
+                     {},    {},          *scene.nodes.find(place.node)};
+        auto positions = std::make_shared<std::vector<vec3>>();
+        for (std::uint32_t i = place.first_surface; i < place.first_surface + place.surfaces; ++i) {
+            if (positions->empty()) {
+                for (const vec3& p : *surfaces[i].positions) {
+                    positions->push_back(p + vec3(off));
+                }
+            }
+            RaySurface surface = surfaces[i];
+            surface.positions = positions;
+            surface.to_engine = out.to_engine;
+            out.surfaces.push_back(std::move(surface));
+            out.bounds.push_back({surface_bounds[i].min + vec3(off), surface_bounds[i].max + vec3(off)});
+        }
+        return out;
     }
 
     // A node at its new place; nothing when its triangles are not the ones it had.
     [[nodiscard]] std::optional<Replaced> replace_node(const Scene& now, std::size_t index) const {
         const Placed& place = placed[index];
-        Replaced out{index, now.world_bounds(place.node), now.world_matrix(place.node), {}, {}};
+        Replaced out{index, now.world_bounds(place.node), now.world_matrix(place.node), {}, {}, {}};
         out.to_engine[3] -= dvec4(origin, 0.0);
         if (out.to_engine == place.to_engine) {
             return out; // none of its surfaces moves
@@ -322,15 +365,20 @@ struct RayScene::Impl {
     // Scene::bounds() of the new placements, and with it `extent`. Nothing when it makes any back reflect or stop to do so.
     [[nodiscard]] std::optional<double> new_extent(const std::vector<Replaced>& replaced) const {
         std::vector<const DBox3*> worlds;
+        std::vector<bool> absent;
         for (const Placed& p : placed) {
             worlds.push_back(&p.world);
+            absent.push_back(p.absent.has_value());
         }
         for (const Replaced& r : replaced) {
             worlds[r.placed] = &r.world;
+            absent[r.placed] = r.absent.has_value();
         }
         DBox3 all;
-        for (const DBox3* world : worlds) {
-            all.add(*world);
+        for (std::size_t i = 0; i < worlds.size(); ++i) {
+            if (!absent[i]) {
+                all.add(*worlds[i]);
+            }
         }
         const double out = all.diagonal();
         const bool same = std::all_of(insides.begin(), insides.end(), [&](const Inside& inside) {
@@ -354,6 +402,9 @@ struct RayScene::Impl {
                 return std::nullopt;
             }
             replaced.push_back(std::move(*one));
+        }
+        for (const std::size_t index : changes->gone) {
+            replaced.push_back(put_away(index));
         }
         const std::optional<double> extent_now = new_extent(replaced);
         if (!extent_now) {
@@ -400,6 +451,12 @@ struct RayScene::Impl {
         return changed;
     }
 
+    [[nodiscard]] bool is_absent(std::uint32_t surface) const {
+        const auto after = std::upper_bound(placed.begin(), placed.end(), surface,
+                                            [](std::uint32_t s, const Placed& p) { return s < p.first_surface; });
+        return after != placed.begin() && std::prev(after)->absent.has_value();
+    }
+
     void take_over(const Scene& now, const std::vector<NodeId>& nodes) {
         for (const NodeId id : nodes) {
             Node* was = scene.nodes.find(id);
@@ -417,9 +474,12 @@ struct RayScene::Impl {
             Placed& place = placed[r.placed];
             place.world = r.world;
             place.to_engine = r.to_engine;
+            const bool came_or_went = place.absent.has_value() != r.absent.has_value();
+            place.absent = std::move(r.absent);
             for (std::size_t i = 0; i < r.surfaces.size(); ++i) {
                 const std::size_t surface = place.first_surface + i;
-                out.push_back({std::uint32_t(surface), surface_bounds[surface], r.bounds[i]});
+                out.push_back(
+                    {std::uint32_t(surface), surface_bounds[surface], r.bounds[i], came_or_went, place.absent.has_value()});
                 surface_bounds[surface] = r.bounds[i];
                 surfaces[surface] = std::move(r.surfaces[i]);
             }
@@ -432,8 +492,10 @@ struct RayScene::Impl {
             return out;
         }
         bounds = {};
-        for (const Box3& box : surface_bounds) {
-            bounds.add(box);
+        for (const Placed& place : placed) {
+            for (std::uint32_t i = place.first_surface; !place.absent && i < place.first_surface + place.surfaces; ++i) {
+                bounds.add(surface_bounds[i]);
+            }
         }
         std::vector<std::uint32_t> moved;
         for (const MovedSurface& m : out) {
@@ -643,6 +705,7 @@ Box3 RayScene::bounds() const { return impl_->bounds; }
 std::size_t RayScene::triangle_count() const { return impl_->triangles; }
 std::size_t RayScene::dropped_triangles() const { return impl_->dropped; }
 std::size_t RayScene::memory_bytes() const { return impl_->embree.bytes(); }
+bool RayScene::absent(std::uint32_t surface) const { return impl_->is_absent(surface); }
 const Material& RayScene::material(std::uint32_t surface) const { return *impl_->materials[surface]; }
 
 std::uint64_t RayScene::rays_traced() const {

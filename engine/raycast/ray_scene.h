@@ -67,6 +67,9 @@ struct MovedSurface {
     std::uint32_t surface = 0; ///< index into RayScene::surfaces()
     Box3 before;
     Box3 after;
+    bool came_or_went = false; ///< hidden or removed, or shown again: one of the two is where it does not matter
+    bool absent = false;       ///< see RayScene::absent(): `after` does not matter
+    [[nodiscard]] bool shown_before() const { return came_or_went == absent; }
 };
 
 /// Immutable but for move_to() and recolor(); every query is safe from any thread. Coordinates are engine coordinates: see
@@ -80,10 +83,11 @@ public:
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
 
-    /// Takes over the placements of nodes (and only these) from `scene`, while no query runs; the origin stays. Returns the
-    /// surfaces that moved. References to this and to surfaces() stay valid; `positions` of what moved are new ones. Nothing
-    /// is returned, and all is left as it was, when placing nodes anew does not lead to what would be built from `scene`:
-    /// other shown nodes, shapes, materials or textures, triangles that vanish or come back, another winding, other
+    /// Takes over the placements of nodes (and only these) from `scene`, while no query runs; the origin stays. What is not
+    /// shown any more is put far below the scene until it is again: see absent(). Returns the surfaces that moved.
+    /// References to this and to surfaces() stay valid; `positions` of what moved are new ones. Nothing is returned, and all
+    /// is left as it was, when placing nodes anew does not lead to what would be built from `scene`: nodes that were not
+    /// there, another order, other shapes, materials or textures, triangles that vanish or come back, another winding, other
     /// reflecting backs. Names, lights, cameras, environment and settings are not looked at.
     [[nodiscard]] std::optional<std::vector<MovedSurface>> move_to(const Scene& scene);
     /// Takes over from `scene` the base colours of matt, opaque materials and what materials emit, while no query runs.
@@ -98,6 +102,8 @@ public:
     [[nodiscard]] bool look_back();
 
     [[nodiscard]] const std::vector<RaySurface>& surfaces() const;
+    /// True for what move_to() put away: not part of bounds(), and of no effect on what is shown.
+    [[nodiscard]] bool absent(std::uint32_t surface) const;
     /// World position of engine (0,0,0): the centre of the scene's bounds, rounded to whole metres.
     [[nodiscard]] dvec3 origin() const;
     [[nodiscard]] Box3 bounds() const; ///< engine coordinates

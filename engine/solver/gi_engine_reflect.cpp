@@ -59,6 +59,9 @@ std::vector<Rgb> GiEngine::solve_with_new_sight(Impl& s, const SightChange& sigh
     const auto anew = [&](std::uint32_t leaf) {
         const Element& e = s.hierarchy.elements[leaf];
         const std::uint32_t surface = e.kind == Element::Kind::Patch ? e.surface : s.hierarchy.faces[e.triangle].surface;
+        if (s.rays->absent(surface)) {
+            return false;
+        }
         if (live.displaced.contains(surface)) {
             return true;
         }
@@ -91,6 +94,9 @@ std::vector<std::vector<VertexChange>> GiEngine::look_from_vertices(Impl& s, con
     parallel_chunks(found.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
             const VertexPlaces& places = live.layers.places[i];
+            if (s.rays->absent(places.surface)) {
+                continue;
+            }
             const bool moved = live.displaced.contains(places.surface);
             for (std::uint32_t v = 0; v < places.front.size(); ++v) {
                 for (const bool back : {false, true}) {

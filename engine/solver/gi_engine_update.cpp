@@ -45,13 +45,18 @@ std::vector<Box3> boxes_of(std::span<const MovedSurface> moved) {
     std::vector<Box3> out;
     Box3 before, after;
     for (const MovedSurface& m : moved) {
-        before.add(m.before);
-        after.add(m.after);
-        out.push_back(m.before);
-        out.push_back(m.after);
+        if (m.shown_before()) {
+            before.add(m.before);
+            out.push_back(m.before);
+        }
+        if (!m.absent) {
+            after.add(m.after);
+            out.push_back(m.after);
+        }
     }
     if (out.size() > kMostBoxes) {
         out = {before, after};
+        std::erase_if(out, [](const Box3& box) { return box.empty(); });
     }
     join_boxes(out);
     return out;
@@ -235,6 +240,16 @@ void GiEngine::show_direct_light(Impl& s, const LightChange& change, const RunCo
     }
 }
 
+std::vector<std::shared_ptr<const SurfaceLayer>> GiEngine::shown_surfaces(const Impl& s) {
+    std::vector<std::shared_ptr<const SurfaceLayer>> out;
+    for (std::size_t i = 0; i < s.live->layers.surfaces.size(); ++i) {
+        if (!s.rays->absent(s.live->layers.places[i].surface)) {
+            out.push_back(s.live->layers.surfaces[i]);
+        }
+    }
+    return out;
+}
+
 bool GiEngine::can_update() const { return impl_->live != nullptr; }
 
 Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, const SolveOptions& options,
@@ -284,6 +299,9 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         if (max_component(material.emitted_radiance()) > 0.0F || surface.pane) {
             return give_up("a lamp or a window moved");
         }
+        if (m.came_or_went && is_specular(material)) {
+            return give_up("a mirror, metal or glass came or went");
+        }
         const dmat4 motion = surface.to_engine * glm::inverse(live.placement[m.surface]);
         live.placement[m.surface] = surface.to_engine;
         if (!follow(s.charts[m.surface], motion)) {
@@ -295,9 +313,10 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
                 follow(places.back, motion);
             }
         }
-        change.moved[m.surface] = 1;
+        const bool absent = s.rays->absent(m.surface); // its own light is of no use to anybody
+        change.moved[m.surface] = absent ? 0 : 1;
         s.hierarchy.follow(m.surface, motion);
-        live.displaced.try_emplace(m.surface, Displacement{m.before, m.after}).first->second.now = m.after;
+        live.displaced.try_emplace(m.surface, Displacement{m.before, m.after}).first->second.now = absent ? Box3{} : m.after;
         mirror_moved = mirror_moved || is_specular(material);
     }
     if (mirror_moved && s.mirrors) {
@@ -325,8 +344,11 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     look_at.exact = options.settle;
     if (options.settle) {
         for (const auto& [surface, d] : live.displaced) {
-            look_at.boxes.insert(look_at.boxes.end(), {d.before, d.now});
-            look_at.moved[surface] = 1;
+            look_at.boxes.push_back(d.before);
+            if (!d.now.empty()) {
+                look_at.boxes.push_back(d.now);
+                look_at.moved[surface] = 1;
+            }
         }
         look_at.boxes.insert(look_at.boxes.end(), live.settled_boxes.begin(), live.settled_boxes.end());
         join_boxes(look_at.boxes);
@@ -426,7 +448,9 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     if (options.settle) {
         live.settled_boxes.clear();
         for (const auto& [surface, d] : live.displaced) {
-            live.settled_boxes.push_back(d.now);
+            if (!d.now.empty()) {
+                live.settled_boxes.push_back(d.now);
+            }
         }
         join_boxes(live.settled_boxes);
     }
@@ -434,8 +458,9 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     s.mirror_shafts_before = {};
     solution->revision = options.revision;
     solution->final = false;
-    solution->surfaces = live.layers.surfaces;
+    solution->surfaces = shown_surfaces(s);
     solution->caustic_records = s.caustics.records;
+    std::erase_if(solution->caustic_records, [&](const CausticRecord& r) { return scene.nodes.find(r.node) == nullptr || !scene.shown(r.node); });
     solution->landings = options.keep_landings ? landing_places(*s.rays, s.particles.get()) : nullptr;
     solution->mean_radiance = live.relight ? live.relight->mean_radiance * live.relight->brightening(s) : live.mean_radiance;
     if (live.relight && live.exchange) {

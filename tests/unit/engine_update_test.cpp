@@ -1,5 +1,6 @@
 // GiEngine::update(): light that follows what moves, and when it says that it cannot.
 #include "engine/base/rng.h"
+#include "engine/scene/scene_edit.h"
 #include "tests/support/light_cases.h"
 #include "tests/support/rooms.h"
 
@@ -47,6 +48,15 @@ struct Room {
         return out;
     }
 };
+
+std::vector<SensorPlace> places_on_floor() {
+    std::vector<SensorPlace> out;
+    for (std::uint32_t i = 0; i < 2000; ++i) {
+        const vec2 u = sobol_owen2(i, 0, 5U);
+        out.push_back({{0.1 + 3.8 * u.x, 0.0, 0.1 + 3.8 * u.y}, {0, 1, 0}});
+    }
+    return out;
+}
 
 double relative_rms(const std::vector<double>& a, const std::vector<double>& b) {
     double sum = 0.0, mean = 0.0;
@@ -126,6 +136,7 @@ TEST(EngineUpdate, SaysWhenOnlyASolutionHelps) {
     refuses([](Room& r) { r.scene.nodes.find(r.lamp)->transform.translation.x += 0.1; });
     refuses([](Room& r) { r.scene.nodes.find(r.box)->transform.scale = dvec3(2.0); });
     refuses([](Room& r) { add_shape(r.scene, "ball", Sphere{0.2F}, {3, 1, 3}, add_material(r.scene, 0.5F)); });
+    refuses([](Room& r) { r.scene.nodes.find(r.lamp)->visible = false; });
     refuses([](Room& r) { r.scene.environment.sky_radiance = Rgb(100.0F); });
 }
 
@@ -141,6 +152,77 @@ TEST(EngineUpdate, ThereAndBackLeavesNoTrace) {
     const auto back = room.engine.update(room.scene, room.options, {});
     ASSERT_TRUE(back);
     EXPECT_LT(relative_rms(room.floor_light(**back), room.floor_light(*before)), 0.01);
+}
+
+// What is hidden or removed takes its shadow and its reflections along, and brings them back.
+TEST(EngineUpdate, WhatGoesTakesItsShadowAlongAndBringsItBack) {
+    const auto check = [](const std::function<std::function<void(Scene&)>(Scene&, NodeId)>& go) {
+        Room room;
+        const auto before = room.solve();
+        ASSERT_TRUE(before);
+        const std::vector<double> with_box = room.floor_light(*before);
+        const auto come_back = go(room.scene, room.box);
+        Room fresh;
+        fresh.scene = room.scene;
+        const auto truth = fresh.solve();
+        const auto floor_without = [&](const Solution& light) {
+            std::vector<double> out;
+            for (const SensorReading& r : read_surfaces(room.scene, light, places_on_floor())) {
+                out.push_back(r.on_surface ? luminance(r.irradiance) : 0.0);
+            }
+            return out;
+        };
+        const std::vector<double> expected = floor_without(*truth);
+        const double stale = relative_rms(floor_without(*before), expected);
+        const auto hurried = room.engine.update(room.scene, room.options, {});
+        ASSERT_TRUE(hurried) << hurried.error().message();
+        room.options.settle = true;
+        const auto settled = room.engine.update(room.scene, room.options, {});
+        ASSERT_TRUE(settled) << settled.error().message();
+        const double followed = relative_rms(floor_without(**hurried), expected);
+        const double exact = relative_rms(floor_without(**settled), expected);
+        std::printf("gone: rms %.2f %%, settled %.2f %%, had it stayed %.2f %%\n", 100.0 * followed, 100.0 * exact,
+                    100.0 * stale);
+        EXPECT_LT(followed, 0.25 * stale);
+        EXPECT_LT(exact, 0.15 * stale);
+        EXPECT_EQ((*settled)->surfaces.size(), truth->surfaces.size()) << "it is not shown any more";
+        EXPECT_TRUE(std::none_of((*settled)->surfaces.begin(), (*settled)->surfaces.end(),
+                                 [&](const auto& layer) { return layer->node == room.box; }));
+        come_back(room.scene);
+        const auto back = room.engine.update(room.scene, room.options, {});
+        ASSERT_TRUE(back) << back.error().message();
+        EXPECT_EQ((*back)->surfaces.size(), before->surfaces.size());
+        EXPECT_LT(relative_rms(room.floor_light(**back), with_box), 0.01);
+    };
+    check([](Scene& scene, NodeId box) -> std::function<void(Scene&)> {
+        scene.nodes.find(box)->visible = false;
+        return [box](Scene& s) { s.nodes.find(box)->visible = true; };
+    });
+    check([](Scene& scene, NodeId box) -> std::function<void(Scene&)> {
+        const auto undo = apply(scene, SceneEdit{RemoveNode{box}});
+        EXPECT_TRUE(undo);
+        return [edit = *undo](Scene& s) { EXPECT_TRUE(apply(s, edit)); };
+    });
+}
+
+// Gone, moved while it was away, back in another place: as if it had been moved there.
+TEST(EngineUpdate, WhatComesBackElsewhereIsThere) {
+    Room room;
+    ASSERT_TRUE(room.solve());
+    room.options.settle = true;
+    room.scene.nodes.find(room.box)->visible = false;
+    ASSERT_TRUE(room.engine.update(room.scene, room.options, {}));
+    room.move({0.9, 0.0, 0.5});
+    room.scene.nodes.find(room.box)->visible = true;
+    const auto back = room.engine.update(room.scene, room.options, {});
+    ASSERT_TRUE(back);
+    Room moved;
+    ASSERT_TRUE(moved.solve());
+    moved.options.settle = true;
+    moved.move({0.9, 0.0, 0.5});
+    const auto direct = moved.engine.update(moved.scene, moved.options, {});
+    ASSERT_TRUE(direct);
+    EXPECT_LT(relative_rms(room.floor_light(**back), moved.floor_light(**direct)), 0.005);
 }
 
 // A thousand moves, and every step a small one: what is kept is the difference to the complete light, so nothing adds up.
