@@ -124,6 +124,8 @@ private:
     void draw_mapped(const ViewItem& item, unsigned variant, const Geometry& geometry, bool has_back);
     void bind_map(Program& program, const std::shared_ptr<const LightMap>& map);
     void bind_caustics(Program& program, const CausticList& list);
+    void make_color_map();
+    void set_scale(Program& program, float line_width); ///< of false colour
     void forget(const Geometry& geometry);
     /// Draws what a flat mirror shows over its surface, through the stencil buffer.
     void draw_mirror(const ViewItem& item, const ViewScene& view, const Scene& scene, const DrawView& from, const mat4& mvp,

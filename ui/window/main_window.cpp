@@ -158,6 +158,13 @@ void MainWindow::on(ActionId id, std::function<void()> slot) {
 
 void MainWindow::say(const QString& text) { statusBar()->showMessage(text, kMessageMs); }
 
+void MainWindow::raise_dock(const char* name) {
+    if (auto* dock = findChild<QDockWidget*>(QLatin1StringView(name))) {
+        dock->show();
+        dock->raise();
+    }
+}
+
 void MainWindow::make_docks() {
     const auto dock = [this](const char* name, const QString& title, QWidget* content, Qt::DockWidgetArea area) {
         auto* widget = new QDockWidget(title, this);
@@ -362,12 +369,7 @@ void MainWindow::make_status_bar() {
     problems_badge_->setToolTip(tr("Show the problems of this scene"));
     problems_badge_->setAccessibleName(tr("Number of problems"));
     problems_badge_->hide();
-    connect(problems_badge_, &QToolButton::clicked, this, [this] {
-        if (auto* dock = findChild<QDockWidget*>(QStringLiteral("dock_problems"))) {
-            dock->show();
-            dock->raise();
-        }
-    });
+    connect(problems_badge_, &QToolButton::clicked, this, [this] { raise_dock("dock_problems"); });
     for (QWidget* widget :
          std::initializer_list<QWidget*>{busy_text_, busy_bar_, busy_cancel_, problems_badge_, new LightBadge(*engine_)}) {
         statusBar()->addPermanentWidget(widget);
@@ -498,18 +500,10 @@ void MainWindow::connect_view() {
     }
     (*actions_)[ActionId::CausticsInTextures]->setChecked(true);
     on(ActionId::InspectCaustics, [this] {
-        if (auto* dock = findChild<QDockWidget*>(QStringLiteral("dock_caustics"))) {
-            dock->show();
-            dock->raise();
-            caustics_->focus_table();
-        }
+        raise_dock("dock_caustics");
+        caustics_->focus_table();
     });
-    on(ActionId::Convergence, [this] {
-        if (auto* dock = findChild<QDockWidget*>(QStringLiteral("dock_convergence"))) {
-            dock->show();
-            dock->raise();
-        }
-    });
+    on(ActionId::Convergence, [this] { raise_dock("dock_convergence"); });
     (*actions_)[ActionId::CutWalls]->setChecked(true);
     connect((*actions_)[ActionId::CutWalls], &QAction::toggled, viewport_, &ViewportWidget::set_cut_walls);
     QAction* direct = (*actions_)[ActionId::ShowDirect];

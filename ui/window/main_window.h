@@ -57,6 +57,7 @@ protected:
     void changeEvent(QEvent* event) override;
 
 private:
+    void raise_dock(const char* name);
     void make_docks();
     void make_menus();
     void make_tool_bar();
