@@ -2,6 +2,7 @@
 #include "app/cli_commands.h"
 #include "app/cli_problems.h"
 #include "app/cli_stats.h"
+#include "engine/scene/photometric_web.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -33,6 +34,37 @@ std::vector<std::string> camera_names(const Scene& scene) {
     return names;
 }
 
+/// Calls f(name, light) for every lamp that shines as a photometric file says, in tree order.
+template <class F> void for_each_measured_lamp(const Scene& scene, F&& f) {
+    for (const NodeId id : scene.in_tree_order()) {
+        const Node& node = *scene.nodes.find(id);
+        const Light* light = scene.lights.find(node.light);
+        if (light != nullptr && light_distribution(*light) != nullptr) {
+            f(node.name.empty() ? light->name : node.name, *light);
+        }
+    }
+}
+
+Json photometry_json(const Scene& scene) {
+    Json out = Json::array();
+    for_each_measured_lamp(scene, [&out](const std::string& name, const Light& light) {
+        const PhotometricWeb& web = *light.photometry.web;
+        out.push_back({{"node", name},
+                       {"file", web.data().file_name},
+                       {"manufacturer", web.data().manufacturer},
+                       {"luminaire", web.data().luminaire},
+                       {"file_lumens", web.flux()},
+                       {"lumens", light.enabled ? flux_of(light) : 0.0},
+                       {"dimming", light.intensity / web.peak()},
+                       {"peak_candela", web.peak()},
+                       {"luminous_opening_m",
+                        {std::abs(web.data().luminous_opening.x), std::abs(web.data().luminous_opening.y),
+                         std::abs(web.data().luminous_opening.z)}},
+                       {"beam_degrees", {web.beam_angle(0.0), web.beam_angle(90.0)}}});
+    });
+    return out;
+}
+
 Json as_json(const std::string& file, const LoadedScene& loaded, const std::vector<Problem>& problems) {
     const Scene& scene = loaded.scene;
     const DBox3 bounds = scene.bounds();
@@ -45,6 +77,7 @@ Json as_json(const std::string& file, const LoadedScene& loaded, const std::vect
                                           {"max", {bounds.max.x, bounds.max.y, bounds.max.z}}};
     out["sky_radiance"] = {scene.environment.sky_radiance.r, scene.environment.sky_radiance.g,
                            scene.environment.sky_radiance.b};
+    out["photometry"] = photometry_json(scene);
     out["has_solution"] = !loaded.solution.empty();
     out["features"] = features_json(scene_features(scene));
     out["problems"] = problems_json(problems);
@@ -65,6 +98,24 @@ std::string as_text(const std::string& file, const LoadedScene& loaded, const st
     line("materials", fmt::format("{}", facts.materials));
     line("textures", fmt::format("{}", facts.textures));
     line("lights", fmt::format("{} and {} emitting surfaces", facts.lights, facts.emitters));
+    const char* title = "photometry";
+    for_each_measured_lamp(scene, [&](const std::string& name, const Light& light) {
+        const PhotometricWeb& web = *light.photometry.web;
+        std::string value = fmt::format("{}: {}, {:.0f} lm", name, web.data().file_name, flux_of(light));
+        if (const float dimming = light.intensity / web.peak(); std::abs(dimming - 1.0F) > 1e-4F) {
+            value += fmt::format(" ({:.0f} % of its intensity)", 100.0F * dimming);
+        }
+        double across = web.beam_angle(0.0), along = web.beam_angle(90.0);
+        if (across < 0.5 || along < 0.5) {
+            across = along = std::max(across, along); // aimed to one side: no plane but that one is as bright
+        }
+        if (across < 360.0) {
+            value += std::abs(across - along) < 0.5 ? fmt::format(", beam {:.0f} degrees", across)
+                                                    : fmt::format(", beam {:.0f} x {:.0f} degrees", across, along);
+        }
+        line(title, value + (light.enabled ? "" : ", off"));
+        title = "";
+    });
     if (!bounds.empty()) {
         const dvec3 size = bounds.size();
         line("size", fmt::format("{:.3f} x {:.3f} x {:.3f} m (x, y up, z)", size.x, size.y, size.z));

@@ -7,7 +7,9 @@
 //     cylinder  radius, height, capped                              along y, centred
 //     cone      baseRadius, topRadius, height, capped               along y, base at -height/2
 //     disc      radius                                              plane z = 0, front +z
-// ATRIUM_light        on a light of KHR_lights_punctual: angularDiameterDegrees (directional only), enabled
+// ATRIUM_light        on a light of KHR_lights_punctual: angularDiameterDegrees (directional only), enabled,
+//                     photometry (index of a profile of EXT_lights_ies: the light stands in for it, its intensity is the
+//                     profile's peak as dimmed, and the node's own reference to the profile means the same lamp)
 // ATRIUM_node         on a node: visible, locked, caustics {show "automatic" | "mesh" | "texture", texel (edge, metres),
 //                     threshold (standard deviations)}: what was set by hand about caustics on its shape
 // ATRIUM_camera       on a camera: exposure (stops from automatic exposure); infinite (an orthographic camera without far
@@ -32,6 +34,7 @@ inline constexpr char kSettings[] = "ATRIUM_settings";
 inline constexpr char kSolution[] = "ATRIUM_solution";
 
 inline constexpr char kLightsPunctual[] = "KHR_lights_punctual";
+inline constexpr char kLightsIes[] = "EXT_lights_ies";
 inline constexpr char kEmissiveStrength[] = "KHR_materials_emissive_strength";
 inline constexpr char kTransmission[] = "KHR_materials_transmission";
 inline constexpr char kIor[] = "KHR_materials_ior";
@@ -45,24 +48,15 @@ inline constexpr char kNodeVisibility[] = "KHR_node_visibility";
 inline constexpr char kWebp[] = "EXT_texture_webp";
 
 /// Extensions that the reader interprets: a file may require them.
-inline constexpr std::string_view kUnderstood[] = {kShape,
-                                                   kLight,
-                                                   kNode,
-                                                   kCamera,
-                                                   kEnvironment,
-                                                   kSettings,
-                                                   kSolution,
-                                                   kLightsPunctual,
-                                                   kEmissiveStrength,
-                                                   kTransmission,
-                                                   kIor,
-                                                   kVolume,
-                                                   kSpecular,
-                                                   kUnlit,
-                                                   kTextureTransform,
-                                                   kQuantization,
-                                                   kInstancing,
-                                                   kNodeVisibility,
-                                                   kWebp};
+inline constexpr std::string_view kUnderstood[] = {kShape,          kLight,
+                                                   kNode,           kCamera,
+                                                   kEnvironment,    kSettings,
+                                                   kSolution,       kLightsPunctual,
+                                                   kLightsIes,      kEmissiveStrength,
+                                                   kTransmission,   kIor,
+                                                   kVolume,         kSpecular,
+                                                   kUnlit,          kTextureTransform,
+                                                   kQuantization,   kInstancing,
+                                                   kNodeVisibility, kWebp};
 
 } // namespace atrium::gltf

@@ -55,6 +55,10 @@ bool read_light(ReadContext& context, const Json& json, Light& light, const std:
     }
     if (const Json* ours = find_extension(json, kLight)) {
         light.enabled = boolean(*ours, "enabled", true, where);
+        const int profile = index(*ours, "photometry", context.webs.size(), where);
+        if (profile >= 0 && light.kind != Light::Kind::Directional) {
+            light.photometry.web = context.webs[std::size_t(profile)];
+        }
     }
     light.extras = json_text(json, "extras");
     return true;

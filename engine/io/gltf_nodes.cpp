@@ -303,6 +303,7 @@ void NodeReader::attach(const Json& json, Node& node, int index_of_node) {
         const int i = index(*light, "light", context_.lights.size(), where);
         node.light = i >= 0 ? context_.lights[std::size_t(i)] : LightId{};
     }
+    node.light = node_photometry(context_, json, node.light, where);
     if (const Json* visibility = find_extension(json, kNodeVisibility)) {
         node.visible = boolean(*visibility, "visible", true, where);
     }

@@ -51,10 +51,11 @@ struct ReadContext {
     MemoryBudget& budget;
     LoadedScene& out;
 
-    std::vector<TextureId> textures;   ///< by glTF texture
-    std::vector<MaterialId> materials; ///< by glTF material
-    std::vector<LightId> lights;       ///< by glTF light; none for one that was left out
-    std::vector<CameraId> cameras;     ///< by glTF camera
+    std::vector<TextureId> textures;                         ///< by glTF texture
+    std::vector<MaterialId> materials;                       ///< by glTF material
+    std::vector<std::shared_ptr<const PhotometricWeb>> webs; ///< by profile of EXT_lights_ies; null: could not be read
+    std::vector<LightId> lights;                             ///< by glTF light; none for one that was left out
+    std::vector<CameraId> cameras;                           ///< by glTF camera
     struct LoadedMesh {
         ShapeId shape; ///< none when nothing of it can be drawn
         std::vector<MaterialId> materials;
@@ -81,9 +82,14 @@ struct ReadContext {
 void read_textures(ReadContext& context, const std::vector<EncodedImage>& images); // gltf_textures.cpp
 void read_materials(ReadContext& context);                                         // gltf_materials.cpp
 void read_meshes(ReadContext& context);                                            // gltf_meshes.cpp
+void read_photometry(ReadContext& context, const std::filesystem::path& folder);   // gltf_photometry.cpp
 void read_lights(ReadContext& context);                                            // gltf_lights.cpp
 void read_cameras(ReadContext& context);                                           // gltf_lights.cpp
 void read_nodes(ReadContext& context);                                             // gltf_nodes.cpp
+
+/// The light of a node: `punctual`, or one made from the profile that the node names.
+LightId node_photometry(ReadContext& context, const Json& node, LightId punctual,
+                        const std::string& where); // gltf_photometry.cpp
 
 /// Name and number of problems are fixed texts here so that a value outside its range reads the same everywhere.
 float clamped(ReadContext& context, const Json& object, const char* key, float fallback, float least, float most,

@@ -3,7 +3,7 @@
 //   gltf_container  GLB chunks, JSON text
 //   gltf_check      structure: references, ranges, loops; unknown required extensions
 //   gltf_resources  buffers and images; then tinygltf parses the checked document
-//   gltf_textures, gltf_materials, gltf_lights, gltf_meshes (with gltf_accessor), gltf_nodes fill the Scene
+//   gltf_textures, gltf_materials, gltf_photometry, gltf_lights, gltf_meshes (with gltf_accessor), gltf_nodes fill the Scene
 #include "engine/io/file_access.h"
 #include "engine/io/gltf_check.h"
 #include "engine/io/gltf_extensions.h"
@@ -112,9 +112,10 @@ LoadedScene read(const std::filesystem::path& path, std::vector<std::uint8_t> by
     Resources resources = fetch_resources(path, container, size, out.problems);
     MemoryBudget budget(std::max(20 * resources.file_bytes, std::uint64_t(1) << 30));
     const auto model = parse_model(container.root, std::move(resources.buffers));
-    ReadContext context{container.root, *model, budget, out, {}, {}, {}, {}, {}, {}};
+    ReadContext context{container.root, *model, budget, out, {}, {}, {}, {}, {}, {}, {}};
     read_textures(context, resources.images);
     read_materials(context);
+    read_photometry(context, path.parent_path());
     read_lights(context);
     read_cameras(context);
     read_meshes(context);

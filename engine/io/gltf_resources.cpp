@@ -11,22 +11,6 @@ namespace {
 constexpr std::uint64_t kMaxFile = std::uint64_t(1) << 34; // 16 GiB: more than any interior, less than endless
 constexpr std::uint64_t kMaxImageFile = std::uint64_t(1) << 30;
 
-/// Content of a data: URI; false when it is not base64.
-bool decode_data_uri(const std::string& uri, std::string& mime_type, std::vector<std::uint8_t>& out) {
-    const std::size_t comma = uri.find(',');
-    if (comma == std::string::npos) {
-        return false;
-    }
-    const std::string head = uri.substr(5, comma - 5);
-    mime_type = head.substr(0, head.find(';'));
-    if (!head.ends_with(";base64")) {
-        return false;
-    }
-    const std::string_view payload = std::string_view(uri).substr(comma + 1);
-    return decode_base64(payload, out) ||
-           (payload.find('%') != std::string_view::npos && decode_base64(percent_decode(std::string(payload)), out));
-}
-
 std::string mime_from_content(const std::vector<std::uint8_t>& bytes, const std::string& fallback) {
     const auto starts = [&](std::string_view magic) {
         return bytes.size() >= magic.size() &&
@@ -141,6 +125,21 @@ std::size_t buffer_of(const std::string& name, const BufferList& buffers) {
 }
 
 } // namespace
+
+bool decode_data_uri(const std::string& uri, std::string& mime_type, std::vector<std::uint8_t>& out) {
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string::npos) {
+        return false;
+    }
+    const std::string head = uri.substr(5, comma - 5);
+    mime_type = head.substr(0, head.find(';'));
+    if (!head.ends_with(";base64")) {
+        return false;
+    }
+    const std::string_view payload = std::string_view(uri).substr(comma + 1);
+    return decode_base64(payload, out) ||
+           (payload.find('%') != std::string_view::npos && decode_base64(percent_decode(std::string(payload)), out));
+}
 
 Resources fetch_resources(const std::filesystem::path& file, Container& container, std::uint64_t scene_bytes,
                           std::vector<Problem>& problems) {

@@ -16,6 +16,9 @@ struct Resources {
 Resources fetch_resources(const std::filesystem::path& file, Container& container, std::uint64_t scene_bytes,
                           std::vector<Problem>& problems);
 
+/// Content of a data: URI; false when it is not base64.
+bool decode_data_uri(const std::string& uri, std::string& mime_type, std::vector<std::uint8_t>& out);
+
 /// Parses a checked document with tinygltf, which reads the given buffers through callbacks and never a file. The buffers
 /// are moved into the model.
 std::shared_ptr<const tinygltf::Model> parse_model(const Json& root, std::vector<std::vector<std::uint8_t>> buffers);

@@ -11,7 +11,7 @@
 
 namespace atrium::gltf {
 
-/// An image file to be written beside a .gltf.
+/// An image or photometric file to be written beside a .gltf.
 struct ImageFile {
     std::string path; ///< relative to the scene file
     std::shared_ptr<const std::vector<std::uint8_t>> bytes;
@@ -33,6 +33,7 @@ struct WriteContext {
     std::map<TextureId, int> textures;
     std::map<MaterialId, int> materials;
     std::map<LightId, int> lights;
+    std::vector<Photometry> profiles; ///< of EXT_lights_ies, in their order
     std::map<CameraId, int> cameras;
     /// A glTF mesh names its materials, our nodes do: one mesh per shape and list of materials. -1 = nothing to draw.
     std::map<std::pair<ShapeId, std::vector<MaterialId>>, int> meshes;
@@ -51,6 +52,15 @@ struct WriteContext {
 std::vector<MaterialId> part_materials(const Scene& scene, const Node& node);
 /// Puts back JSON text that the reader kept (extras).
 void put_text(Json& object, const char* key, const std::string& json_text);
+
+/// `wish`, or `wish-2`, `wish-3`, ...: a path beside the scene that is free or holds these bytes already (`on_disk`). A file
+/// that holds something else is never overwritten.
+std::string free_file_name(const WriteContext& context, const std::string& wish, const std::vector<std::uint8_t>& bytes,
+                           bool& on_disk); // gltf_write_materials.cpp
+/// Index of the profile that holds a light's distribution; written when it is asked for first.
+int write_profile(WriteContext& context, const Photometry& photometry); // gltf_photometry.cpp
+/// Makes a node refer to the profile of its light, if that has one.
+void put_profile(const WriteContext& context, const Light& light, Json& node); // gltf_photometry.cpp
 
 void write_textures(WriteContext& context);  // gltf_write_materials.cpp
 void write_materials(WriteContext& context); // gltf_write_materials.cpp

@@ -31,8 +31,7 @@ std::string extension_of(const std::string& mime_type) {
     return "." + (kind == "jpeg" ? std::string("jpg") : kind);
 }
 
-/// Names of image files beside a .gltf: the one it came from where that is free or holds these bytes already. A file that
-/// holds something else is never overwritten.
+/// Names of image files beside a .gltf: the one it came from if it can be had.
 std::string choose_file(WriteContext& context, const Texture& texture, const std::vector<std::uint8_t>& bytes,
                         bool& on_disk) {
     std::string wish = texture.uri;
@@ -44,28 +43,7 @@ std::string choose_file(WriteContext& context, const Texture& texture, const std
         const std::string extension = extension_of(texture.mime_type);
         wish = context.stem + "_" + name + (name.ends_with(extension) ? "" : extension);
     }
-    const std::filesystem::path path(wish);
-    for (int attempt = 1;; ++attempt) {
-        const std::string name =
-            attempt == 1
-                ? wish
-                : (path.parent_path() / (path.stem().string() + "-" + std::to_string(attempt) + path.extension().string()))
-                      .generic_string();
-        const bool taken = std::any_of(context.image_files.begin(), context.image_files.end(),
-                                       [&](const ImageFile& file) { return file.path == name; });
-        if (taken) {
-            continue;
-        }
-        std::error_code ignored;
-        if (!std::filesystem::exists(context.folder / name, ignored)) {
-            on_disk = false;
-            return name;
-        }
-        if (const auto old = read_file(context.folder / name, kMaxImageFile); old && *old == bytes) {
-            on_disk = true;
-            return name;
-        }
-    }
+    return free_file_name(context, wish, bytes, on_disk);
 }
 
 /// Index of the glTF image of a texture; -1 when it has none. Textures with the same bytes share one.
@@ -272,6 +250,32 @@ std::set<MaterialId> used_materials(const WriteContext& context) {
 }
 
 } // namespace
+
+std::string free_file_name(const WriteContext& context, const std::string& wish, const std::vector<std::uint8_t>& bytes,
+                           bool& on_disk) {
+    const std::filesystem::path path(wish);
+    for (int attempt = 1;; ++attempt) {
+        const std::string name =
+            attempt == 1
+                ? wish
+                : (path.parent_path() / (path.stem().string() + "-" + std::to_string(attempt) + path.extension().string()))
+                      .generic_string();
+        const bool taken = std::any_of(context.image_files.begin(), context.image_files.end(),
+                                       [&](const ImageFile& file) { return file.path == name; });
+        if (taken) {
+            continue;
+        }
+        std::error_code ignored;
+        if (!std::filesystem::exists(context.folder / name, ignored)) {
+            on_disk = false;
+            return name;
+        }
+        if (const auto old = read_file(context.folder / name, kMaxImageFile); old && *old == bytes) {
+            on_disk = true;
+            return name;
+        }
+    }
+}
 
 void write_textures(WriteContext& context) {
     std::set<TextureId> used;

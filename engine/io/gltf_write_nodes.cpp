@@ -8,7 +8,7 @@
 namespace atrium::gltf {
 namespace {
 
-Json light_json(const Light& light) {
+Json light_json(WriteContext& context, const Light& light) {
     Json json = {{"intensity", short_number(std::max(light.intensity, 0.0F))}};
     if (!light.name.empty()) {
         json["name"] = light.name;
@@ -42,6 +42,9 @@ Json light_json(const Light& light) {
     }
     if (!light.enabled) {
         ours["enabled"] = false;
+    }
+    if (light_distribution(light) != nullptr) {
+        ours["photometry"] = write_profile(context, light.photometry);
     }
     if (!ours.empty()) {
         json["extensions"][kLight] = std::move(ours);
@@ -134,6 +137,7 @@ Json node_json(const WriteContext& context, const Node& node, const std::map<Nod
     }
     if (const auto light = context.lights.find(node.light); light != context.lights.end()) {
         json["extensions"][kLightsPunctual]["light"] = light->second;
+        put_profile(context, *context.scene.lights.find(node.light), json);
     }
     if (!node.visible) {
         json["extensions"][kNode]["visible"] = false;
@@ -167,9 +171,10 @@ void write_lights(WriteContext& context) {
     }
     for (const LightId id : used) {
         if (const Light* light = context.scene.lights.find(id)) {
+            Json json = light_json(context, *light);
             Json& all = context.root["extensions"][kLightsPunctual]["lights"];
             context.lights[id] = int(all.size());
-            all.push_back(light_json(*light));
+            all.push_back(std::move(json));
         }
     }
 }

@@ -190,7 +190,7 @@ Result<void> write_scene(const std::filesystem::path& path, const Scene& scene, 
     }
     try {
         WriteContext context{
-            scene, !is_text, path.parent_path(), path.stem().string(), Json::object(), {}, {}, {}, {}, {}, {}, {}, {}};
+            scene, !is_text, path.parent_path(), path.stem().string(), Json::object(), {}, {}, {}, {}, {}, {}, {}, {}, {}};
         context.nodes = scene.in_tree_order();
         build(context, options, is_project);
         if (is_text) {

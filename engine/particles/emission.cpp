@@ -220,10 +220,11 @@ std::array<vec3, 2> spread_axes(const std::vector<std::pair<vec3, double>>& poin
 bool sends_alike(const ParticleSource& a, const ParticleSource& b) {
     const Light& l = a.light.light;
     const Light& m = b.light.light;
-    return l.kind == m.kind && l.inner_cone == m.inner_cone && l.outer_cone == m.outer_cone &&
-           a.light.position == b.light.position && a.light.axis == b.light.axis && a.leaves == b.leaves &&
-           a.power == b.power && a.centre == b.centre && a.extent == b.extent && a.sun_radius == b.sun_radius &&
-           a.has_size == b.has_size && a.reach == b.reach && a.surface == b.surface && a.key == b.key;
+    return l.kind == m.kind && l.photometry == m.photometry && a.light.right == b.light.right &&
+           l.inner_cone == m.inner_cone && l.outer_cone == m.outer_cone && a.light.position == b.light.position &&
+           a.light.axis == b.light.axis && a.leaves == b.leaves && a.power == b.power && a.centre == b.centre &&
+           a.extent == b.extent && a.sun_radius == b.sun_radius && a.has_size == b.has_size && a.reach == b.reach &&
+           a.surface == b.surface && a.key == b.key;
 }
 
 float scene_reach(const RayScene& rays) {
@@ -329,10 +330,7 @@ bool emit(const ParticleSource& source, const SpecularTarget& target, const Part
     } else {
         through_cone(source.light.position, target.bounds, {u.x, u.y}, out.direction, solid_angle, du, dv);
     }
-    float shape = 1.0F;
-    if (source.light.light.kind == Light::Kind::Spot) {
-        shape = spot_falloff(source.light.light, glm::dot(out.direction, source.light.axis));
-    }
+    const float shape = source.light.distribution(out.direction);
     out.origin = source.light.position;
     out.throughput = Rgb(solid_angle * shape);
     out.d_origin = {};

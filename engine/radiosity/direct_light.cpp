@@ -9,7 +9,26 @@ namespace {
 
 constexpr std::size_t kSunScouts = 8; // rays towards the sun that may stand for all where they agree
 
+// How a luminaire is turned about its axis, and what it gives hanging askew.
+void place_photometry(const PhotometricWeb& web, const dmat4& world, PlacedLight& out) {
+    const dvec3 axis(out.axis);
+    const dvec3 across = dvec3(world[0]) - axis * glm::dot(axis, dvec3(world[0]));
+    const double length = glm::length(across);
+    vec3 t;
+    vec3 b;
+    make_frame(out.axis, t, b);
+    out.right = length > 0.0 ? vec3(across / length) : t;
+    out.light.intensity *= web.tilt_factor(degrees_from_radians(std::acos(std::clamp(-axis.y, -1.0, 1.0))));
+}
+
 } // namespace
+
+float PlacedLight::distribution(const vec3& away) const {
+    if (const PhotometricWeb* web = light.photometry.web.get()) {
+        return web->relative({glm::dot(away, right), glm::dot(away, glm::cross(right, axis)), -glm::dot(away, axis)});
+    }
+    return light.kind == Light::Kind::Spot ? spot_falloff(light, glm::dot(away, axis)) : 1.0F;
+}
 
 std::vector<PlacedLight> placed_lights(const Scene& scene, const dvec3& origin) {
     std::vector<PlacedLight> out;
@@ -23,7 +42,15 @@ std::vector<PlacedLight> placed_lights(const Scene& scene, const dvec3& origin) 
         const dmat4 world = scene.world_matrix(id);
         const dvec3 axis = -dvec3(world[2]);
         const double length = glm::length(axis);
-        out.push_back({*light, id, vec3(dvec3(world[3]) - origin), length > 0.0 ? vec3(axis / length) : vec3(0, 0, -1)});
+        PlacedLight placed;
+        placed.light = *light;
+        placed.node = id;
+        placed.position = vec3(dvec3(world[3]) - origin);
+        placed.axis = length > 0.0 ? vec3(axis / length) : vec3(0, 0, -1);
+        if (const PhotometricWeb* web = light_distribution(*light)) {
+            place_photometry(*web, world, placed);
+        }
+        out.push_back(std::move(placed));
     }
     return out;
 }
@@ -84,11 +111,11 @@ DirectSample DirectLight::lamps_irradiance(const vec3& point, const vec3& normal
         const float distance2 = glm::dot(d, d);
         const float distance = std::sqrt(distance2);
         const float cosine = distance > 0.0F ? glm::dot(normal, d) / distance : 0.0F;
-        float candela = light.intensity;
-        if (light.kind == Light::Kind::Spot && distance > 0.0F) {
-            candela *= spot_falloff(light, -glm::dot(d, placed.axis) / distance);
+        if (cosine <= 0.0F) {
+            continue;
         }
-        if (cosine <= 0.0F || candela <= 0.0F) {
+        const float candela = light.intensity * placed.distribution(-d / distance);
+        if (candela <= 0.0F) {
             continue;
         }
         const Rgb through =
@@ -164,16 +191,7 @@ void DirectLight::add_sun(const PlacedLight& sun, const vec3& point, const vec3&
 double DirectLight::emitted_flux() const {
     double flux = 0.0;
     for (const PlacedLight& placed : lights_) {
-        const Light& light = placed.light;
-        const double candela = double(luminance(light.color)) * light.intensity;
-        if (light.kind == Light::Kind::Point) {
-            flux += 4.0 * kPiD * candela;
-        } else if (light.kind == Light::Kind::Spot) {
-            // Integral of the squared falloff over the cone: 2 pi I [(1 - cos i) + (cos i - cos o) / 3].
-            const double inner = std::cos(light.inner_cone);
-            const double outer = std::cos(light.outer_cone);
-            flux += 2.0 * kPiD * candela * ((1.0 - inner) + (inner - outer) / 3.0);
-        }
+        flux += flux_of(placed.light);
     }
     return flux;
 }

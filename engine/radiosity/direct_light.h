@@ -3,6 +3,7 @@
 
 #include "engine/radiosity/sky_light.h"
 #include "engine/raycast/mirror_sight.h"
+#include "engine/scene/photometric_web.h"
 
 #include <span>
 #include <utility>
@@ -16,6 +17,10 @@ struct PlacedLight {
     NodeId node;
     vec3 position{0.0F};
     vec3 axis{0.0F, 0.0F, -1.0F}; ///< unit, the way it shines
+    vec3 right{1.0F, 0.0F, 0.0F}; ///< unit, its own +x; only of those with photometry
+
+    /// Intensity towards a unit direction from the lamp over Light::intensity. Not for directional lights.
+    [[nodiscard]] float distribution(const vec3& away) const;
 };
 
 /// The enabled lights of a scene with the world position of engine (0,0,0), in tree order.

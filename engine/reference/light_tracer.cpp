@@ -90,11 +90,8 @@ LightTracer::Start LightTracer::from_sun(const Source& source, Numbers& numbers)
 LightTracer::Start LightTracer::from_lamp(const Source& source, Numbers& numbers) const {
     const PathLights::Lamp& lamp = lights_.lamps()[source.index];
     const Aim::Direction to = aim_.from_point(lamp.position, numbers.next3());
-    float candela = lamp.light.intensity;
-    if (lamp.light.kind == Light::Kind::Spot) {
-        candela *= spot_falloff(lamp.light, glm::dot(to.direction, lamp.axis));
-    }
-    return {{lamp.position, to.direction}, to.density > 0.0F ? lamp.light.color * (candela / to.density) : Rgb(0.0F)};
+    return {{lamp.position, to.direction},
+            to.density > 0.0F ? lamp.light.color * (lamp.candela(to.direction) / to.density) : Rgb(0.0F)};
 }
 
 LightTracer::Start LightTracer::from_emitter(const Source& source, Numbers& numbers) const {

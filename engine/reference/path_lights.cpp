@@ -42,7 +42,19 @@ PathLights::PathLights(const Scene& scene, const RayScene& rays) : rays_(rays), 
             const double half = std::sin(0.5 * radius);
             suns_.push_back({light->color * light->intensity, -axis, float(2.0 * half * half)});
         } else {
-            lamps_.push_back({*light, vec3(dvec3(world[3]) - rays.origin()), axis});
+            Lamp lamp{*light, vec3(dvec3(world[3]) - rays.origin()), axis, dmat3(1.0)};
+            if (light->photometry) {
+                // Scale has no part in it: own axes are -z as it shines and x as far as it is across.
+                const dvec3 back = -dvec3(axis);
+                const dvec3 up = glm::cross(back, dvec3(world[0]));
+                lamp.from_world[1] = glm::length(up) > 0.0 ? glm::normalize(up) : dvec3(0.0, 1.0, 0.0);
+                lamp.from_world[2] = back;
+                lamp.from_world[0] = glm::cross(lamp.from_world[1], back);
+                lamp.from_world = glm::transpose(lamp.from_world);
+                const double tilt = std::acos(std::clamp(back.y, -1.0, 1.0));
+                lamp.light.intensity *= light->photometry->tilt_factor(degrees_from_radians(tilt));
+            }
+            lamps_.push_back(std::move(lamp));
         }
     }
     add_emitters();
@@ -104,11 +116,15 @@ Rgb PathLights::Lamp::irradiance(const vec3& x, const vec3& n) const {
     if (cosine <= 0.0F) {
         return Rgb(0.0F);
     }
-    float candela = light.intensity;
-    if (light.kind == Light::Kind::Spot) {
-        candela *= spot_falloff(light, -glm::dot(d, axis) / distance);
+    return light.color * (candela(-d / distance) * cosine / distance2);
+}
+
+float PathLights::Lamp::candela(const vec3& away) const {
+    if (light.photometry) {
+        const PhotometricWeb& web = *light.photometry.web;
+        return float(read_candela(web.data(), from_world * dvec3(away)) / double(web.peak()) * double(light.intensity));
     }
-    return light.color * (candela * cosine / distance2);
+    return light.kind == Light::Kind::Spot ? light.intensity * spot_falloff(light, glm::dot(away, axis)) : light.intensity;
 }
 
 vec3 PathLights::Sun::sample(const vec2& u) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/raycast/ray_scene.h"
+#include "engine/reference/web_reading.h"
 
 #include <vector>
 
@@ -17,6 +18,9 @@ public:
         Light light;
         vec3 position{0.0F};
         vec3 axis{0.0F, 0.0F, -1.0F}; ///< unit, the way it shines
+        dmat3 from_world{1.0};        ///< turns directions into the light's own axes
+        /// Luminous intensity towards a unit direction from the lamp, candela.
+        [[nodiscard]] float candela(const vec3& away) const;
         /// Illuminance at x on a plane with unit normal n where nothing stands between, lux.
         [[nodiscard]] Rgb irradiance(const vec3& x, const vec3& n) const;
     };

@@ -27,6 +27,7 @@ struct Census {
     std::size_t suns = 0;
     std::string first_sun;
     std::size_t lamps = 0;    ///< point and spot lights that shine
+    std::size_t measured = 0; ///< of these, with photometry
     std::size_t emitters = 0; ///< luminous surfaces
 };
 
@@ -57,6 +58,7 @@ Census take_census(const Scene& scene) {
             }
         } else if (light != nullptr && light->enabled && light->intensity > 0.0F) {
             ++c.lamps;
+            c.measured += light->photometry ? 1 : 0;
         }
         const std::size_t parts = shape != nullptr ? part_count(*shape) : 0;
         for (std::size_t part = 0; part < parts; ++part) {
@@ -195,6 +197,9 @@ std::vector<Feature> scene_features(const Scene& scene) {
         {"alpha_cutouts", c.cutouts > 0,
          c.cutouts == 0 ? "No surface is cut out by its alpha."
                         : counted(c.cutouts, "surface is", "surfaces are") + " cut out by alpha: light passes the holes."},
+        {"photometry", c.measured > 0,
+         c.measured == 0 ? "No lamp has a photometric file."
+                         : counted(c.measured, "lamp shines", "lamps shine") + " as photometric files say."},
     };
 }
 

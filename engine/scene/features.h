@@ -16,7 +16,7 @@ struct Feature {
 };
 
 /// Features in a fixed order: particles, caustic_textures, octree, refraction, glossy, sun, sky, textures, direct_layer,
-/// specular_view, transmittance, alpha_cutouts.
+/// specular_view, transmittance, alpha_cutouts, photometry.
 std::vector<Feature> scene_features(const Scene& scene);
 const Feature& find_feature(const std::vector<Feature>& features, const std::string& name);
 

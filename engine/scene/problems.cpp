@@ -186,6 +186,9 @@ private:
             add(Severity::Warning, id, where, "it is switched on but its intensity is zero",
                 "Set an intensity or switch it off");
         }
+        if (l.kind == Light::Kind::Directional && l.photometry) {
+            add(Severity::Note, id, where, "it has a photometric file, which a sun cannot have", "The file is ignored");
+        }
         if (l.kind == Light::Kind::Spot &&
             !(l.inner_cone >= 0.0F && l.inner_cone < l.outer_cone && l.outer_cone <= kPi / 2.0F)) {
             add(Severity::Warning, id, where,

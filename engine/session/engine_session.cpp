@@ -32,8 +32,9 @@ double estimate_remaining(double elapsed, double fraction) {
 struct EngineSession::Impl {
     using Picture = std::shared_ptr<const Solution>;
 
-    Impl(std::function<void()> wake_function, SolveFunction solve_function)
-        : wake(std::move(wake_function)), solve(std::move(solve_function)), thread([this] { run(); }) {}
+    Impl(std::function<void()> wake_function, SolveFunction solve_function, AuditFunction audit_function)
+        : wake(std::move(wake_function)), solve(std::move(solve_function)), audit(std::move(audit_function)),
+          thread([this] { run(); }) {}
     ~Impl() {
         {
             const std::lock_guard lock(mutex);
@@ -124,9 +125,11 @@ struct EngineSession::Impl {
         message.clear();
         const StopFlag stop = running_stop;
         const bool landings = landings_wanted;
+        const Picture complete = latest;
         lock.unlock();
         tell();
-        Ended ended = solve_guarded(stop, kind, good_on_show, landings);
+        Ended ended = kind == QualityScheduler::Kind::Audit ? audit_guarded(stop, complete)
+                                                            : solve_guarded(stop, kind, good_on_show, landings);
         const bool updatable = ended.picture && ended.picture->updatable;
         lock.lock();
         if (ended.picture && !scheduler.abandoned() && ended.picture != latest) {
@@ -135,10 +138,32 @@ struct EngineSession::Impl {
         if (ended.outcome == QualityScheduler::Outcome::Failed && !scheduler.abandoned()) {
             message = std::move(ended.message);
         }
-        scheduler.on_finished(ended.outcome, updatable);
+        scheduler.on_finished(ended.outcome, updatable, audit && latest && latest->statistics.audit.points == 0);
         ask_for_landings();
         phase.clear();
         last_duration = Clock::now() - started;
+    }
+
+    SolveOptions options_of_scene() const {
+        SolveOptions options;
+        options.quality = scene.settings.quality;
+        options.seed = scene.settings.seed;
+        options.revision = revision;
+        return options;
+    }
+
+    /// The number beside the light. That it could not be had is no failure: the light stands.
+    Ended audit_guarded(const StopFlag& stop, const Picture& complete) {
+        RunContext context;
+        context.stop = stop;
+        try {
+            Picture out = audit(scene, complete, options_of_scene(), context);
+            return {stop.stop_requested() ? QualityScheduler::Outcome::Stopped : QualityScheduler::Outcome::Audited,
+                    std::move(out),
+                    {}};
+        } catch (const std::exception&) {
+            return {QualityScheduler::Outcome::Stopped, nullptr, {}};
+        }
     }
 
     Ended solve_guarded(const StopFlag& stop, QualityScheduler::Kind kind, bool good_on_show, bool landings) {
@@ -146,10 +171,7 @@ struct EngineSession::Impl {
         RunContext context;
         context.stop = stop;
         context.on_progress = [&](const Progress& p) { on_progress(p); };
-        SolveOptions options;
-        options.quality = scene.settings.quality;
-        options.seed = scene.settings.seed;
-        options.revision = revision;
+        SolveOptions options = options_of_scene();
         options.keep_for_updates = true;
         options.hurried = kind == QualityScheduler::Kind::Hurried;
         options.settle = kind == QualityScheduler::Kind::Settle;
@@ -313,6 +335,7 @@ struct EngineSession::Impl {
     Clock::time_point last_wake{};
     const std::function<void()> wake;
     const SolveFunction solve;
+    const AuditFunction audit; ///< may be empty
 
     // Guarded by `posting`, which the engine thread never takes: the document as posted, so that post() can tell whether an
     // edit changes light, and a running solve need not be stopped for a new name.
@@ -341,8 +364,8 @@ struct EngineSession::Impl {
     std::jthread thread; ///< last: starts when all of the above exists
 };
 
-EngineSession::EngineSession(std::function<void()> wake, SolveFunction solve)
-    : impl_(std::make_unique<Impl>(std::move(wake), std::move(solve))) {}
+EngineSession::EngineSession(std::function<void()> wake, SolveFunction solve, AuditFunction audit)
+    : impl_(std::make_unique<Impl>(std::move(wake), std::move(solve), std::move(audit))) {}
 EngineSession::~EngineSession() = default;
 
 void EngineSession::load(Scene scene, std::uint64_t revision, std::shared_ptr<const Solution> stored) {

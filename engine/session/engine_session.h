@@ -39,7 +39,11 @@ public:
     using SolveFunction = std::function<Result<std::shared_ptr<const Solution>>(
         const Scene&, const SolveOptions&, const RunContext&,
         const std::function<void(std::shared_ptr<const Solution>)>& on_snapshot)>;
-    EngineSession(std::function<void()> wake, SolveFunction solve);
+    /// What audited() does: a complete solution with its error, or the same one where that was stopped.
+    using AuditFunction = std::function<std::shared_ptr<const Solution>(const Scene&, std::shared_ptr<const Solution>,
+                                                                        const SolveOptions&, const RunContext&)>;
+    /// Without `audit` errors are not measured.
+    EngineSession(std::function<void()> wake, SolveFunction solve, AuditFunction audit = {});
     ~EngineSession();
     EngineSession(const EngineSession&) = delete;
     EngineSession& operator=(const EngineSession&) = delete;

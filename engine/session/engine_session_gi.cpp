@@ -12,22 +12,19 @@ namespace {
 EngineSession::SolveFunction solve_with_gi_engine() {
     return [engine = std::make_shared<GiEngine>()](const Scene& scene, const SolveOptions& options,
                                                    const RunContext& context, const auto& on_snapshot) {
-        auto solution = engine->solve(scene, options, context, on_snapshot);
-        if (!solution || !(*solution)->final || (*solution)->statistics.audit.points > 0) {
-            return solution;
-        }
-        // The picture is complete and on show; what is still to come is the number beside it.
-        context.progress("audit", 1.0);
-        AuditSettings settings = audit_settings(options.quality);
-        settings.seed = options.seed;
-        RunContext quiet; // its steps are not those of the light
-        quiet.stop = context.stop;
-        return Result<std::shared_ptr<const Solution>>(audited(scene, *solution, settings, quiet));
+        return engine->solve(scene, options, context, on_snapshot);
     };
+}
+
+std::shared_ptr<const Solution> audit(const Scene& scene, std::shared_ptr<const Solution> solution,
+                                      const SolveOptions& options, const RunContext& context) {
+    AuditSettings settings = audit_settings(options.quality);
+    settings.seed = options.seed;
+    return audited(scene, std::move(solution), settings, context);
 }
 
 } // namespace
 
-EngineSession::EngineSession(std::function<void()> wake) : EngineSession(std::move(wake), solve_with_gi_engine()) {}
+EngineSession::EngineSession(std::function<void()> wake) : EngineSession(std::move(wake), solve_with_gi_engine(), audit) {}
 
 } // namespace atrium

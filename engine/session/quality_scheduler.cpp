@@ -13,6 +13,7 @@ void QualityScheduler::on_load(bool has_picture, bool complete) {
     cancelled_ = false;
     failed_ = false;
     in_gesture_ = false;
+    audit_due_ = false;
     abandoned_ = running_;
 }
 
@@ -22,6 +23,7 @@ void QualityScheduler::on_edit(Time now, bool changes_light, bool in_gesture) {
     if (changes_light) {
         needed_ = true;
         complete_ = false;
+        audit_due_ = false;
         cancelled_ = false;
         failed_ = false;
     }
@@ -30,6 +32,11 @@ void QualityScheduler::on_edit(Time now, bool changes_light, bool in_gesture) {
 void QualityScheduler::on_gesture_end() { in_gesture_ = false; }
 
 void QualityScheduler::on_cancel() {
+    audit_due_ = false;
+    if (running_ && running_kind_ == Kind::Audit && !needed_) {
+        stopping_ = true; // the light is complete all the same
+        return;
+    }
     if (running_ || needed_) {
         cancelled_ = true;
         stopping_ = running_;
@@ -47,17 +54,25 @@ void QualityScheduler::on_resume() {
 void QualityScheduler::on_started(Kind kind) {
     running_ = true;
     running_kind_ = kind;
-    needed_ = false;
+    if (kind == Kind::Audit) {
+        audit_due_ = false;
+    } else {
+        needed_ = false;
+    }
 }
 
-void QualityScheduler::on_finished(Outcome outcome, bool updatable) {
+void QualityScheduler::on_finished(Outcome outcome, bool updatable, bool audit) {
     const Kind kind = std::exchange(running_kind_, Kind::Full);
     running_ = false;
     stopping_ = false;
     if (std::exchange(abandoned_, false)) {
         return; // nothing that it says is about the present document
     }
+    if (kind == Kind::Audit) {
+        return; // known or not, the light is what it was
+    }
     switch (outcome) {
+    case Outcome::Audited: break;
     case Outcome::Final:
         updatable_ = updatable;
         unsettled_ = false;
@@ -65,6 +80,7 @@ void QualityScheduler::on_finished(Outcome outcome, bool updatable) {
         if (!needed_) {
             complete_ = true;
             cancelled_ = false; // it was done before it heard
+            audit_due_ = audit;
         }
         break;
     case Outcome::Hurried:
@@ -103,6 +119,9 @@ void QualityScheduler::on_failure() {
 }
 
 QualityScheduler::Kind QualityScheduler::kind() const {
+    if (audit_due_ && !needed_ && !unsettled_ && !refining_) {
+        return Kind::Audit;
+    }
     if (!updatable_ || !(needed_ || unsettled_)) {
         return Kind::Full;
     }
@@ -110,10 +129,10 @@ QualityScheduler::Kind QualityScheduler::kind() const {
 }
 
 QualityScheduler::Time QualityScheduler::start_time() const {
-    if (running_ || cancelled_ || failed_ || !(needed_ || unsettled_ || refining_)) {
+    if (running_ || cancelled_ || failed_ || !(needed_ || unsettled_ || refining_ || audit_due_)) {
         return Time::max();
     }
-    return needed_ || !in_gesture_ ? Time::min() : last_edit_ + kRest;
+    return needed_ || audit_due_ || !in_gesture_ ? Time::min() : last_edit_ + kRest;
 }
 
 QualityScheduler::Time QualityScheduler::stop_time() const {
@@ -125,6 +144,9 @@ QualityScheduler::Time QualityScheduler::stop_time() const {
     }
     if (running_kind_ == Kind::Hurried) {
         return Time::max(); // it is short
+    }
+    if (running_kind_ == Kind::Audit) {
+        return needed_ || stopping_ ? Time::min() : Time::max();
     }
     if (needed_ && (!in_gesture_ || updatable_)) {
         return Time::min();
@@ -139,7 +161,8 @@ QualityScheduler::State QualityScheduler::state() const {
     if (cancelled_) {
         return State::Stopped;
     }
-    return (running_ && !abandoned_) || needed_ || unsettled_ || refining_ ? State::Solving : State::Idle;
+    return (running_ && !abandoned_ && running_kind_ != Kind::Audit) || needed_ || unsettled_ || refining_ ? State::Solving
+                                                                                                           : State::Idle;
 }
 
 } // namespace atrium

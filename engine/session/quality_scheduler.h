@@ -10,7 +10,8 @@ namespace atrium {
 /// One solve at a time, always of the newest scene. Outside a gesture an edit stops a stale solve at once. Within a gesture
 /// light follows by hurried updates, if the engine keeps a complete solution to start from, and so it does after a single
 /// edit. When the hand rests or lets go an exact update settles the light, and the full solve comes after it. Without a
-/// complete solution the running solve goes on until the hand rests, so that there is light to see while dragging.
+/// complete solution the running solve goes on until the hand rests, so that there is light to see while dragging. Once all
+/// is complete its error is measured; that is no work anybody waits for, and any edit of light ends it.
 class QualityScheduler {
 public:
     using Time = RunContext::Clock::time_point;
@@ -23,10 +24,11 @@ public:
         Hurried, ///< an update in a hurry is done: an exact one is still to come
         Settled, ///< an exact update is done: a full solve is still to come
         Unfit,   ///< the change was not one that can be done by an update
+        Audited, ///< the error of the complete light is known
         Stopped, ///< it ended early
         Failed
     };
-    enum class Kind : std::uint8_t { Full, Hurried, Settle };
+    enum class Kind : std::uint8_t { Full, Hurried, Settle, Audit };
     enum class State : std::uint8_t { Idle, Solving, Stopped, Failed };
 
     /// Another document. `has_picture`: it came with a solution, so nothing runs until an edit; `complete`: a final one.
@@ -37,8 +39,8 @@ public:
     void on_resume();
     void on_started(Kind kind = Kind::Full);
     /// Reports the end of the solve that on_started() announced.
-    /// `updatable`: the engine keeps what hurried updates start from.
-    void on_finished(Outcome outcome, bool updatable = false);
+    /// `updatable`: the engine keeps what hurried updates start from. `audit`: the error of a final solution is wanted.
+    void on_finished(Outcome outcome, bool updatable = false, bool audit = false);
     /// Something other than a solve went wrong; nothing starts until the next edit or resume.
     void on_failure();
 
@@ -72,7 +74,8 @@ private:
     bool cancelled_ = false; ///< until the next edit of light or resume
     bool failed_ = false;    ///< likewise
     bool abandoned_ = false;
-    bool stopping_ = false; ///< the running solve was cancelled and has not ended yet
+    bool audit_due_ = false; ///< complete light whose error is not known
+    bool stopping_ = false;  ///< the running solve was cancelled and has not ended yet
     bool in_gesture_ = false;
     Time last_edit_{};
 };

@@ -22,7 +22,7 @@ bool same_lamp(const PlacedLight& a, const PlacedLight& b) {
     light.name = a.light.name;
     light.extras = a.light.extras;
     light.enabled = a.light.enabled;
-    return light == a.light && a.position == b.position && a.axis == b.axis;
+    return light == a.light && a.position == b.position && a.axis == b.axis && a.right == b.right;
 }
 
 } // namespace

@@ -11,7 +11,7 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from support import CLI, ROOM, SHARED, SOURCE, CliTest, exr_values  # noqa: E402
+from support import CLI, ROOM, SHARED, SOURCE, CliTest, box_room, exr_values  # noqa: E402
 
 FEATURES = ["particles", "caustic_textures", "octree", "refraction", "glossy", "sun", "sky", "textures", "direct_layer",
             "specular_view"]
@@ -73,6 +73,49 @@ class InfoAndCheck(CliTest):
         for name in ("sun", "sky", "refraction", "textures"):
             self.assertFalse(facts["features"][name]["used"], name)
             self.assertTrue(facts["features"][name]["why"])
+
+    def test_photometric_lamps(self):
+        room = json.loads(box_room())
+        name = "narrow_downlight.ies"
+        with open(os.path.join(SOURCE, "scenes", "luminaires", name), "rb") as f:
+            lamp = f.read()
+        with open(self.path(name), "wb") as f:
+            f.write(lamp)
+        room["extensionsUsed"].append("EXT_lights_ies")
+        room["extensions"] = {"EXT_lights_ies": {"lights": [{"uri": name}]}}
+        room["nodes"].append({"name": "Downlight", "translation": [2, 2.4, 1.5], "rotation": [-0.7071067811865476, 0, 0, 0.7071067811865476],
+                              "extensions": {"EXT_lights_ies": {"light": 0, "multiplier": 0.5}}})
+        room["scenes"][0]["nodes"].append(4)
+        file = self.write("downlight.gltf", json.dumps(room))
+        self.assertIn("photometry   Downlight: narrow_downlight.ies, 400 lm (50 % of its intensity), beam 21 degrees",
+                      self.run_cli("info", file).stdout)
+        facts = json.loads(self.run_cli("info", file, "--json").stdout)
+        self.assertTrue(facts["features"]["photometry"]["used"])
+        self.assertEqual(len(facts["photometry"]), 1)
+        told = facts["photometry"][0]
+        self.assertEqual((told["node"], told["file"], told["manufacturer"]), ("Downlight", name, "Atrium"))
+        self.assertAlmostEqual(told["file_lumens"], 800, delta=0.5)
+        self.assertAlmostEqual(told["lumens"], 400, delta=0.3)
+        self.assertAlmostEqual(told["dimming"], 0.5, places=6)
+        # Straight below, I / d^2: 3940.8 cd at half, 2.4 m. In one file it goes along.
+        packed = self.path("packed.glb")
+        self.run_cli("convert", file, packed)
+        os.remove(self.path(name))
+        points = self.write("points.csv", "x,y,z,nx,ny,nz\n2,1e-6,1.5,0,1,0\n")
+        lit = self.path("lit.csv")
+        self.run_cli("measure", packed, "--points", points, "--free", "-o", lit, "--quality", "draft")
+        dark = self.path("dark.csv")
+        script = self.write("off.json", json.dumps({"edits": [{"kind": "light", "node": "Downlight", "intensity": 0}]}))
+        off = self.path("off.atrium")
+        self.run_cli("edit", packed, "--script", script, "-o", off, "--quality", "draft")
+        self.run_cli("measure", off, "--points", points, "--free", "-o", dark)
+        def lux(path):
+            with open(path) as f:
+                header, row = f.read().split()[:2]
+            return float(row.split(",")[header.split(",").index("E")])
+        # What the walls reflect of the beam comes on top.
+        self.assertGreater(lux(lit) - lux(dark), 0.5 * 3940.8 / 2.4 ** 2)
+        self.assertLess(lux(lit) - lux(dark), 1.2 * 0.5 * 3940.8 / 2.4 ** 2)
 
     def test_check_passes(self):
         self.run_cli("check", self.room)

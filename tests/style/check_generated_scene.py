@@ -18,6 +18,7 @@ SCENES = [
     ("lamp", "make_lamp.py", ["lamp.glb"]),
     ("cabin", "make_cabin.py", ["cabin.glb", "drag.json", "edits.json"]),
     ("street", "make_street.py", ["street.glb", "drag.json", "edits.json"]),
+    ("luminaires", "make_luminaires.py", ["narrow_downlight.ies", "wall_washer.ies", "linear_pendant.ies"]),
 ]
 
 

@@ -386,6 +386,46 @@ TEST_F(Session, MayBeDestroyedWhileSolving) {
     EXPECT_GT(wakes, 0);
 }
 
+// The picture is there before the number; the number comes to the same picture, and an edit does not wait for it.
+TEST_F(Session, TheErrorFollowsThePicture) {
+    std::atomic<int> audits = 0;
+    std::atomic<bool> let_finish = false;
+    session = std::make_unique<EngineSession>(
+        [this] {
+            const std::lock_guard lock(mutex);
+            ++wakes;
+            woken.notify_all();
+        },
+        [this](const Scene& s, const SolveOptions& o, const RunContext& c, const auto& snapshot) {
+            return solver.solve(s, o, c, snapshot);
+        },
+        [&](const Scene&, std::shared_ptr<const Solution> light, const SolveOptions&, const RunContext& context) {
+            ++audits;
+            while (!let_finish && !context.should_stop()) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            }
+            if (context.should_stop()) {
+                return light;
+            }
+            auto out = std::make_shared<Solution>(*light);
+            out->statistics.audit.points = 7;
+            return std::shared_ptr<const Solution>(out);
+        });
+    session->load(scene, 1, nullptr);
+    solver.order(Order::Finish);
+    wait_for([&](const SessionStatus&) { return audits == 1; }, "an audit");
+    EXPECT_EQ(wait_for(State::Idle).shown_revision, 1U) << "complete while its error is measured";
+    EXPECT_EQ(session->latest()->statistics.audit.points, 0U);
+    session->post(move(1), 2, false);
+    solver.order(Order::Finish);
+    let_finish = true; // of the second; the first was stopped
+    wait_for([&](const SessionStatus&) { return session->latest()->statistics.audit.points == 7; }, "the number");
+    EXPECT_EQ(audits, 2);
+    EXPECT_EQ(session->latest()->revision, 2U);
+    EXPECT_EQ(solver.calls(), 2U);
+    session.reset(); // before what its audit refers to
+}
+
 TEST_F(Session, MayBeDestroyedUnused) { session.reset(); }
 
 } // namespace

@@ -48,9 +48,9 @@ TEST_F(Features, ComeInAFixedOrderEachWithASentence) {
         ASSERT_FALSE(f.why.empty());
         EXPECT_EQ(f.why.back(), '.') << f.why;
     }
-    EXPECT_EQ(names,
-              (std::vector<std::string>{"particles", "caustic_textures", "octree", "refraction", "glossy", "sun", "sky",
-                                        "textures", "direct_layer", "specular_view", "transmittance", "alpha_cutouts"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"particles", "caustic_textures", "octree", "refraction", "glossy", "sun",
+                                               "sky", "textures", "direct_layer", "specular_view", "transmittance",
+                                               "alpha_cutouts", "photometry"}));
 }
 
 TEST_F(Features, ADiffuseSceneNeedsNothing) {

@@ -49,6 +49,46 @@ TEST_F(Scheduler, ADocumentIsSolvedOnce) {
     EXPECT_EQ(s.state(), State::Idle);
 }
 
+// The number beside complete light: nobody waits for it, and any edit of light comes before it.
+TEST_F(Scheduler, TheErrorIsMeasuredOnceLightIsComplete) {
+    using Kind = QualityScheduler::Kind;
+    started();
+    s.on_finished(Outcome::Final, true, true);
+    EXPECT_EQ(wants(), "start");
+    EXPECT_EQ(s.kind(), Kind::Audit);
+    EXPECT_EQ(s.state(), State::Idle) << "the light is complete";
+    s.on_started(Kind::Audit);
+    EXPECT_EQ(wants(), "-");
+    EXPECT_EQ(s.state(), State::Idle);
+    EXPECT_EQ(edit(true), "stop") << "within a gesture too";
+    EXPECT_EQ(finished(Outcome::Stopped), "start");
+    EXPECT_EQ(s.kind(), Kind::Hurried) << "what updates start from is still there";
+    s.on_started(Kind::Hurried);
+    s.on_finished(Outcome::Hurried, false, true);
+    s.on_gesture_end();
+    s.on_started(s.kind());
+    s.on_finished(Outcome::Settled, false, true);
+    EXPECT_EQ(s.kind(), Kind::Full) << "not before the complete light is there";
+    s.on_started(Kind::Full);
+    s.on_finished(Outcome::Final, true, true);
+    EXPECT_EQ(s.kind(), Kind::Audit);
+    s.on_started(Kind::Audit);
+    EXPECT_EQ(finished(Outcome::Audited), "-");
+    EXPECT_EQ(s.state(), State::Idle);
+}
+
+TEST_F(Scheduler, TheErrorNeedNotBeKnown) {
+    started();
+    s.on_finished(Outcome::Final, true, true);
+    s.on_started(QualityScheduler::Kind::Audit);
+    s.on_cancel();
+    EXPECT_EQ(wants(), "stop");
+    EXPECT_EQ(finished(Outcome::Stopped), "-");
+    EXPECT_EQ(s.state(), State::Idle) << "nothing is missing";
+    s.on_resume();
+    EXPECT_EQ(wants(), "-");
+}
+
 TEST_F(Scheduler, AStoredSolutionIsEnoughUntilAnEdit) {
     s.on_load(true, true);
     EXPECT_EQ(wants(), "-");

@@ -1,6 +1,7 @@
 // GiEngine::update() while lamps are dimmed and coloured and walls painted.
 #include "engine/base/parallel.h"
 #include "engine/base/rng.h"
+#include "engine/scene/photometric_web.h"
 #include "engine/session/engine_session.h"
 #include "tests/support/light_cases.h"
 #include "tests/support/rooms.h"
@@ -193,6 +194,69 @@ void follow(const Edits& edits) {
 
 TEST(Relight, LightFollowsLamps) { follow(edits_of_lamps()); }
 TEST(Relight, LightFollowsSkyAndPaint) { follow(other_edits()); }
+
+/// Brighter to one side, as a wall washer; another `peak` is another file.
+std::shared_ptr<const PhotometricWeb> washer(float peak) {
+    PhotometricData data;
+    data.vertical = {0, 30, 60, 90};
+    data.horizontal = {0, 90, 180, 270, 360};
+    for (const float side : {0.5F, 1.0F, 0.5F, 0.2F, 0.5F}) {
+        for (const float down : {0.6F, 1.0F, 0.5F, 0.0F}) {
+            data.candela.push_back(peak * side * down);
+        }
+    }
+    return std::make_shared<const PhotometricWeb>(std::move(data));
+}
+
+// Dimmed and coloured as any lamp; given another distribution it is another lamp.
+TEST(Relight, PhotometricLamps) {
+    const auto with_washer = [](Room& r) {
+        set_photometry(r.light_of(r.spot), washer(900.0F));
+        r.scene.nodes.find(r.spot)->transform.rotation = glm::angleAxis(-1.4, dvec3(1, 0, 0));
+    };
+    Room room;
+    with_washer(room);
+    const auto before = room.solve();
+    ASSERT_TRUE(before);
+    const Scene was = room.scene;
+    room.light_of(room.spot).intensity *= 0.25F;
+    room.light_of(room.spot).color = {1.0F, 0.7F, 0.4F};
+    const auto updated = room.update();
+    ASSERT_TRUE(updated);
+    EXPECT_TRUE(updated->statistics.update.degraded);
+    EXPECT_EQ(updated->statistics.update.sources_changed, 1U);
+    Room fresh;
+    fresh.scene = room.scene;
+    const Light3 expected = fresh.light(*fresh.solve());
+    Room dice;
+    dice.scene = room.scene;
+    dice.options.seed = 2;
+    const double chance = relative_rms(dice.light(*dice.solve()), expected);
+    const double error = relative_rms(room.light(*updated), expected);
+    const double stale = relative_rms(room.light(*before), expected);
+    std::printf("a photometric lamp dimmed    rms %.2f %%, light that does not follow %.1f %%, another seed %.2f %%\n",
+                100.0 * error, 100.0 * stale, 100.0 * chance);
+    EXPECT_GT(stale, 0.1);
+    EXPECT_LT(error, 0.1 * stale + chance);
+    room.scene = was;
+    expect_same(*room.update(), *before);
+
+    const auto refused = [&](const std::function<void(Room&)>& edit) {
+        Room other(false, false);
+        with_washer(other);
+        ASSERT_TRUE(other.solve());
+        edit(other);
+        const auto result = other.engine.update(other.scene, other.options, {});
+        ASSERT_FALSE(result);
+        EXPECT_NE(result.error().message().find("a lamp moved"), std::string::npos) << result.error().message();
+    };
+    refused([](Room& r) { set_photometry(r.light_of(r.spot), washer(800.0F)); });
+    refused([](Room& r) { remove_photometry(r.light_of(r.spot)); });
+    refused([](Room& r) { // about its own axis
+        dquat& turn = r.scene.nodes.find(r.spot)->transform.rotation;
+        turn = turn * glm::angleAxis(0.5, dvec3(0, 0, 1));
+    });
+}
 
 TEST(Relight, OneFactorForAllLightTracesNothing) {
     Room room(false);

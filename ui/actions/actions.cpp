@@ -44,6 +44,7 @@ const std::array kTable = {
     ActionInfo{ActionId::AddSun, "add_sun", ATRIUM_TEXT("S&un"), "", "sun", ATRIUM_TEXT("Add sunlight")},
     ActionInfo{ActionId::AddDaylight, "add_daylight", ATRIUM_TEXT("Day&light"), "", "sun", ATRIUM_TEXT("Add a sun and a sky in one step")},
     ActionInfo{ActionId::AddAreaLight, "add_area_light", ATRIUM_TEXT("&Area Light"), "", "area_light", ATRIUM_TEXT("Add a luminous disc")},
+    ActionInfo{ActionId::AddLuminaire, "add_luminaire", ATRIUM_TEXT("&IES Luminaire..."), "", "spot_light", ATRIUM_TEXT("Add a lamp that shines as a maker's photometric file (IES, EULUMDAT) says")},
     ActionInfo{ActionId::AddCamera, "add_camera", ATRIUM_TEXT("Ca&mera"), "", "camera", ATRIUM_TEXT("Add a camera that sees the present view")},
     ActionInfo{ActionId::ToolSelect, "tool_select", ATRIUM_TEXT("&Select"), "Q", "select", ATRIUM_TEXT("Select objects by clicking"), true},
     ActionInfo{ActionId::ToolMove, "tool_move", ATRIUM_TEXT("&Move"), "W", "move", ATRIUM_TEXT("Move the selected objects"), true},

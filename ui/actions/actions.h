@@ -40,6 +40,7 @@ enum class ActionId : std::uint8_t {
     AddSun,
     AddDaylight,
     AddAreaLight,
+    AddLuminaire,
     AddCamera,
     ToolSelect,
     ToolMove,

@@ -40,7 +40,6 @@ private:
 
 const dquat kLieDown = glm::angleAxis(-kPiD / 2, dvec3(1, 0, 0)); // local +z to world +y
 const dquat kFaceDown = glm::angleAxis(kPiD / 2, dvec3(1, 0, 0)); // local +z to world -y
-constexpr double kLampHeight = 2.2;                               // metres above the floor
 
 Polygon rectangle(float width, float depth) {
     const float x = width / 2;
@@ -203,6 +202,40 @@ Command add_object(const Scene& scene, NewObject kind, const dvec3& at, const st
     }
     const NodeId id = builder.add_node(std::move(node));
     return {builder.finish(), {id}};
+}
+
+Command add_luminaire(const Scene& scene, std::shared_ptr<const PhotometricWeb> web, const dvec3& at,
+                      const std::string& name) {
+    Builder builder(scene);
+    Node node;
+    node.name = free_name(scene, name);
+    Light light;
+    light.name = node.name;
+    set_photometry(light, std::move(web));
+    node.light = builder.add_resource(builder.scene().lights, std::move(light));
+    node.transform.translation = at;
+    node.transform.rotation = kLieDown; // -z looks down
+    const NodeId id = builder.add_node(std::move(node));
+    return {builder.finish(), {id}};
+}
+
+SceneEdit set_lamp_photometry(const Scene& scene, const std::vector<LightId>& lights,
+                              const std::shared_ptr<const PhotometricWeb>& web) {
+    std::vector<SceneEdit> edits;
+    for (const LightId id : lights) {
+        const Light* found = scene.lights.find(id);
+        if (found == nullptr || found->kind == Light::Kind::Directional) {
+            continue;
+        }
+        Light light = *found;
+        if (web) {
+            set_photometry(light, web);
+        } else {
+            remove_photometry(light);
+        }
+        edits.push_back(SceneEdit{SetResource<Light>{id, std::move(light)}});
+    }
+    return as_one(std::move(edits));
 }
 
 Command add_camera(const Scene& scene, const dmat4& to_world, const Camera& lens, const std::string& name) {

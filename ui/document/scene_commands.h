@@ -9,6 +9,9 @@
 
 namespace atrium::ui {
 
+/// Lamps are hung so high above the floor, metres.
+inline constexpr double kLampHeight = 2.2;
+
 /// What the Add menu offers.
 enum class NewObject : std::uint8_t {
     Polygon,
@@ -35,6 +38,13 @@ struct Command {
 Command add_object(const Scene& scene, NewObject kind, const dvec3& at, const std::string& name);
 /// A camera node with this placement and lens.
 Command add_camera(const Scene& scene, const dmat4& to_world, const Camera& lens, const std::string& name);
+/// A lamp that shines downwards as a photometric file says. `at`: world metres, the lamp itself.
+Command add_luminaire(const Scene& scene, std::shared_ptr<const PhotometricWeb> web, const dvec3& at,
+                      const std::string& name);
+/// Gives point and spot lights a photometric distribution, or takes it away (null). Suns and lights that are gone are left
+/// out.
+SceneEdit set_lamp_photometry(const Scene& scene, const std::vector<LightId>& lights,
+                              const std::shared_ptr<const PhotometricWeb>& web);
 /// Removes the nodes with all below them.
 SceneEdit delete_nodes(const std::vector<NodeId>& nodes);
 /// Copies the subtrees next to their originals; shapes and materials stay shared, lights and cameras are copied.

@@ -1,6 +1,9 @@
 #include "ui/panels/light_sections.h"
 
 #include "engine/scene/edit_tools.h"
+#include "engine/scene/photometric_web.h"
+#include "ui/document/scene_commands.h"
+#include "ui/panels/photometry_box.h"
 
 #include <QPushButton>
 
@@ -25,6 +28,21 @@ NumberFormat intensity_format() {
     return format;
 }
 
+NumberFormat flux_format() {
+    NumberFormat format = NumberFormat::plain(0, 1e9, 1, QStringLiteral(" lm"));
+    format.proportional = true;
+    format.units.units = {{"lm", 1.0}, {"klm", 1000.0}};
+    return format;
+}
+
+NumberFormat dimming_format() {
+    NumberFormat format = NumberFormat::plain(0, 100, 1, QStringLiteral(" %"));
+    format.units.units = {{"%", 1.0}};
+    format.display_factor = 100.0;
+    format.step = 0.05;
+    return format;
+}
+
 } // namespace
 
 LightSection::LightSection(Document& document) : Section(tr("Lamp"), document) {
@@ -33,7 +51,14 @@ LightSection::LightSection(Document& document) : Section(tr("Lamp"), document) {
         [this](bool on) { return write([on](Light& l) { l.enabled = on; }); });
     add_choice(
         tr("Kind"), {tr("Point"), tr("Spot"), tr("Sun")},
-        [this] { return read_each(scene().lights, targets(), [](const Light& l) { return int(l.kind); }); },
+        [this] {
+            // A measured lamp is of no kind: its file says how it shines.
+            const auto measured =
+                read_each(scene().lights, targets(), [](const Light& l) { return light_distribution(l) != nullptr; });
+            return std::find(measured.begin(), measured.end(), true) != measured.end()
+                       ? std::vector<int>{}
+                       : read_each(scene().lights, targets(), [](const Light& l) { return int(l.kind); });
+        },
         [this](int index) { return write([index](Light& l) { l.kind = Light::Kind(index); }); });
     add_color(
         tr("Colour"), [this] { return read_each(scene().lights, targets(), [](const Light& l) { return l.color; }); },
@@ -42,11 +67,37 @@ LightSection::LightSection(Document& document) : Section(tr("Lamp"), document) {
         tr("Intensity"), intensity_format(),
         [this] { return read_each(scene().lights, targets(), [](const Light& l) { return double(l.intensity); }); },
         [this](double value) { return write([value](Light& l) { l.intensity = float(value); }); });
+    add_number(
+        tr("Flux"), flux_format(),
+        [this] { return read_lamps([](const Light& l) { return l.kind != Light::Kind::Directional; }, flux_of); },
+        [this](double value) {
+            return write([value](Light& l) {
+                const double one = double(luminance(l.color)) * solid_angle_of(l); // lumen of a candela
+                l.intensity = one > 0.0 ? float(value / one) : l.intensity;
+            });
+        });
+    add_number(
+        tr("Dimming"), dimming_format(),
+        [this] {
+            return read_lamps([](const Light& l) { return light_distribution(l) != nullptr; },
+                              [](const Light& l) { return double(l.intensity) / double(l.photometry->peak()); });
+        },
+        [this](double value) {
+            return write([value](Light& l) { l.intensity = float(value * double(l.photometry->peak())); });
+        });
+    photometry_ = new PhotometryBox;
+    connect(photometry_, &PhotometryBox::choose, this, [this] { Q_EMIT choose_photometry(targets()); });
+    connect(photometry_, &PhotometryBox::remove, this,
+            [this] { apply(set_lamp_photometry(scene(), targets(), nullptr), tr("Remove photometry")); });
+    add_row(tr("Photometry"), photometry_->buttons(), [this] {
+        return !read_lamps([](const Light& l) { return l.kind != Light::Kind::Directional; }, flux_of).empty();
+    });
+    add_row(QString(), photometry_);
     const auto only = [this](Light::Kind kind, auto get) {
         std::vector<double> values;
         for (const LightId id : targets()) {
             const Light& light = *scene().lights.find(id);
-            if (light.kind != kind) {
+            if (light.kind != kind || light_distribution(light) != nullptr) {
                 return std::vector<double>{};
             }
             values.push_back(get(light));
@@ -98,6 +149,19 @@ std::vector<LightId> LightSection::targets() const {
     return lights;
 }
 
+std::vector<double> LightSection::read_lamps(const std::function<bool(const Light&)>& fits,
+                                             const std::function<double(const Light&)>& get) const {
+    std::vector<double> values;
+    for (const LightId id : targets()) {
+        const Light& light = *scene().lights.find(id);
+        if (!fits(light)) {
+            return {};
+        }
+        values.push_back(get(light));
+    }
+    return values;
+}
+
 bool LightSection::has_target() const { return !targets().empty(); }
 
 void LightSection::refresh_more() {
@@ -111,6 +175,11 @@ void LightSection::refresh_more() {
         units = intensity_format().units;
     }
     intensity_->set_suffix(suns ? tr(" lx") : tr(" cd"), units);
+    std::vector<Photometry> files;
+    for (const LightId id : lights) {
+        files.push_back(scene().lights.find(id)->photometry);
+    }
+    photometry_->set(files);
 }
 
 SceneEdit LightSection::write(const std::function<void(Light&)>& change) const {

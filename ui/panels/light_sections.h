@@ -7,11 +7,16 @@ class QPushButton;
 
 namespace atrium::ui {
 
-/// Kind, colour, intensity with its unit, cone, angular diameter.
+class PhotometryBox;
+
+/// Kind, colour, intensity with its unit, flux, photometry, cone, angular diameter.
 class LightSection : public Section {
     Q_OBJECT
 public:
     explicit LightSection(Document& document);
+
+Q_SIGNALS:
+    void choose_photometry(const std::vector<atrium::LightId>& lights);
 
 protected:
     bool has_target() const override;
@@ -19,8 +24,12 @@ protected:
 
 private:
     std::vector<LightId> targets() const;
+    /// A value of each lamp; nothing where one of them does not fit.
+    std::vector<double> read_lamps(const std::function<bool(const Light&)>& fits,
+                                   const std::function<double(const Light&)>& get) const;
     SceneEdit write(const std::function<void(Light&)>& change) const;
     NumberField* intensity_ = nullptr;
+    PhotometryBox* photometry_ = nullptr;
 };
 
 /// Field of view and exposure; "Look through".

@@ -18,8 +18,13 @@ PropertiesPanel::PropertiesPanel(Document& document, QWidget* parent) : QScrollA
     layout->setContentsMargins(10, 8, 10, 8);
     layout->setSpacing(8);
     auto* camera = new CameraSection(document);
-    sections_ = {new SceneSection(document),   new NodeSection(document),  new PlacementSection(document),
-                 new ShapeSection(document),   new LightSection(document), camera,
+    auto* light = new LightSection(document);
+    sections_ = {new SceneSection(document),
+                 new NodeSection(document),
+                 new PlacementSection(document),
+                 new ShapeSection(document),
+                 light,
+                 camera,
                  new MaterialSection(document)};
     for (Section* section : sections_) {
         layout->addWidget(section);
@@ -28,6 +33,7 @@ PropertiesPanel::PropertiesPanel(Document& document, QWidget* parent) : QScrollA
     layout->addStretch(1);
     setWidget(content);
     connect(camera, &CameraSection::look_through, this, &PropertiesPanel::look_through);
+    connect(light, &LightSection::choose_photometry, this, &PropertiesPanel::choose_photometry);
     connect(&document_, &Document::edited, this, &PropertiesPanel::refresh_soon);
     connect(&document_, &Document::reset_done, this, &PropertiesPanel::refresh);
     connect(document_.selection(), &Selection::changed, this, &PropertiesPanel::refresh);

@@ -23,6 +23,7 @@ public:
 Q_SIGNALS:
     void message(const QString& text);
     void look_through(atrium::NodeId camera);
+    void choose_photometry(const std::vector<atrium::LightId>& lights);
 
 private:
     void refresh_soon();

@@ -1,5 +1,7 @@
 #include "ui/viewport/markers.h"
 
+#include "engine/scene/photometric_web.h"
+
 #include <algorithm>
 #include <array>
 
@@ -64,6 +66,35 @@ std::vector<std::pair<dvec3, dvec3>> figure_of(const Marker& marker) {
     return lines;
 }
 
+constexpr double kWeb = 110.0; ///< length of a web's greatest intensity, logical pixels
+
+/// A photometric web as meridians and rings, its peak one unit long.
+std::vector<std::pair<dvec3, dvec3>> web_of(const Marker& marker) {
+    constexpr int kPlanes = 8, kSteps = 36, kRound = 32;
+    const PhotometricWeb& web = *marker.photometry.web;
+    const auto at = [&](double v, double h) {
+        const dvec3 d = photometric_direction(PhotometryType::C, v, h); // in the light's own axes
+        return (marker.axes * d) * double(web.relative(vec3(d)));
+    };
+    std::vector<std::pair<dvec3, dvec3>> lines;
+    const auto add = [&](const dvec3& a, const dvec3& b) {
+        if (glm::dot(a, a) + glm::dot(b, b) > 1e-6) {
+            lines.emplace_back(a, b);
+        }
+    };
+    for (int plane = 0; plane < kPlanes; ++plane) {
+        for (int k = 0; k < kSteps; ++k) {
+            add(at(180.0 * k / kSteps, 360.0 * plane / kPlanes), at(180.0 * (k + 1) / kSteps, 360.0 * plane / kPlanes));
+        }
+    }
+    for (int v = 15; v < 180; v += 15) {
+        for (int k = 0; k < kRound; ++k) {
+            add(at(v, 360.0 * k / kRound), at(v, 360.0 * (k + 1) / kRound));
+        }
+    }
+    return lines;
+}
+
 } // namespace
 
 std::vector<Marker> find_markers(const Scene& scene) {
@@ -83,6 +114,7 @@ std::vector<Marker> find_markers(const Scene& scene) {
                               : (light->kind == Light::Kind::Spot ? Marker::Kind::Spot : Marker::Kind::Sun);
             marker.angle = double(light->outer_cone);
             marker.enabled = light->enabled;
+            marker.photometry.web = light_distribution(*light) != nullptr ? light->photometry.web : nullptr;
             const float most = max_component(light->color);
             marker.color = most > 0 ? light->color / most : vec3(1.0F);
         } else if (const Camera* camera = scene.cameras.find(node.camera)) {
@@ -147,14 +179,16 @@ void draw_markers(OverlayBatch& batch, const std::vector<Marker>& markers, const
         } else if (marker.node == hovered) {
             color = kHovered;
         }
-        const double length = kFigure * camera.pixel_size(marker.position);
-        const auto lines = figure_of(marker);
+        const bool as_web = chosen && marker.photometry;
+        const double length = (as_web ? kWeb : kFigure) * camera.pixel_size(marker.position);
+        const auto lines = as_web ? web_of(marker) : figure_of(marker);
+        const double width = as_web ? 1.1 : 1.6;
         for (const auto& [a, b] : lines) {
-            batch.line3(camera, marker.position + a * length, marker.position + b * length, 3.4,
-                        vec4(0.0F, 0.0F, 0.0F, 0.45F));
+            batch.line3(camera, marker.position + a * length, marker.position + b * length, width + 1.8,
+                        vec4(0.0F, 0.0F, 0.0F, as_web ? 0.25F : 0.45F));
         }
         for (const auto& [a, b] : lines) {
-            batch.line3(camera, marker.position + a * length, marker.position + b * length, 1.6, color);
+            batch.line3(camera, marker.position + a * length, marker.position + b * length, width, color);
         }
         if (marker.kind == Marker::Kind::Point || marker.kind == Marker::Kind::Sun) {
             for (int k = 0; k < 8; ++k) {

@@ -18,6 +18,7 @@ struct Marker {
     dmat3 axes{1.0};    ///< shines or looks along -axes[2]
     double angle = 0.0; ///< spot: outer half angle; camera: half the vertical field of view
     vec3 color{1.0F};
+    Photometry photometry; ///< drawn as a small solid while the lamp is selected
     bool enabled = true;
     bool hidden_behind = false; ///< a surface lies between it and the eye
 };

@@ -3,6 +3,7 @@
 
 #include "engine/view/tone.h"
 #include "ui/document/background.h"
+#include "ui/document/scene_commands.h"
 #include "ui/tools/measure_tool.h"
 #include "ui/tools/transform_tool.h"
 #include "ui/viewport/legend.h"
@@ -31,6 +32,10 @@ constexpr int kProbeAfterMs = 150; ///< of rest; then a face at a time
 constexpr int kWalkTickMs = 16;
 constexpr double kLegendMargin = 12.0; ///< logical pixels
 constexpr double kPinchSteps = 6.0;    ///< dolly steps for a pinch to twice the size
+
+// Of lamps that are put there, metres.
+constexpr double kBelowCeiling = 0.02;
+constexpr double kBeforeWall = 0.1;
 
 /// A new mean is taken over at rest when it differs by more than this factor: somebody switched the lights.
 constexpr double kMeanJump = 8.0;
@@ -141,6 +146,13 @@ struct ViewportWidget::Impl : ToolHost {
         });
         QObject::connect(doc.selection(), &Selection::changed, &widget, [this] { selection_changed(); });
         QObject::connect(&engine, &EngineLink::solution_changed, &widget, [this] { take_solution(); });
+    }
+
+    /// Where a lamp hangs over a point on a floor: no higher than a ceiling lets it.
+    [[nodiscard]] dvec3 lamp_above(const dvec3& floor) const {
+        const auto ceiling = view.pick({floor + dvec3(0.0, 0.01, 0.0), dvec3(0.0, 1.0, 0.0)});
+        const double room = ceiling ? ceiling->point.y - floor.y - kBelowCeiling : kLampHeight;
+        return floor + dvec3(0.0, room > 0.1 ? std::min(kLampHeight, room) : kLampHeight, 0.0);
     }
 
     // ---- ToolHost ----
@@ -764,6 +776,25 @@ dvec3 ViewportWidget::placement_point() const {
     const dvec3 ahead = ray.at(std::min(camera.focus_distance(), 5.0));
     const auto floor = impl_->view.pick({ahead, down});
     return floor ? floor->point : ahead;
+}
+
+dvec3 ViewportWidget::lamp_place() const { return impl_->lamp_above(placement_point()); }
+
+ViewportWidget::DropPlace ViewportWidget::drop_place(const QPointF& point) const {
+    impl_->sync();
+    const auto hit = impl_->pick({point.x(), point.y()});
+    if (!hit) {
+        return {{}, lamp_place()};
+    }
+    DropPlace out{hit->node, hit->point};
+    if (hit->normal.y < -0.5) {
+        out.lamp += hit->normal * kBelowCeiling;
+    } else if (hit->normal.y > 0.5) {
+        out.lamp = impl_->lamp_above(hit->point);
+    } else {
+        out.lamp += hit->normal * kBeforeWall;
+    }
+    return out;
 }
 
 void ViewportWidget::initializeGL() {

@@ -61,6 +61,14 @@ public:
     /// Point on the floor or nearest surface in the middle of the view: where new objects are placed, world metres.
     [[nodiscard]] dvec3 placement_point() const;
 
+    /// What lies under a point of the widget, for something that is dropped there.
+    struct DropPlace {
+        NodeId node;     ///< the object or lamp there; none beside everything
+        dvec3 lamp{0.0}; ///< where a lamp would hang: below a ceiling, before a wall, above a floor; world metres
+    };
+    [[nodiscard]] DropPlace drop_place(const QPointF& point) const;
+    [[nodiscard]] dvec3 lamp_place() const; ///< above placement_point(), below the ceiling, world metres
+
 Q_SIGNALS:
     void tool_changed(atrium::ui::ToolKind tool);
     void walk_mode_changed(bool on);

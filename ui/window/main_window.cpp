@@ -17,6 +17,7 @@
 #include "ui/window/file_controller.h"
 #include "ui/window/help_dialogs.h"
 #include "ui/window/import_bar.h"
+#include "ui/window/photometry_controller.h"
 #include "ui/window/settings.h"
 #include "ui/window/start_page.h"
 
@@ -47,10 +48,10 @@ namespace {
 constexpr float kExposureStep = 1.0F / 3.0F;
 constexpr int kMessageMs = 6000;
 
-QString dropped_file(const QMimeData* data) {
+QString dropped_file(const QMimeData* data, std::initializer_list<const char*> suffixes) {
     for (const QUrl& url : data->urls()) {
         const QString path = url.toLocalFile();
-        for (const char* suffix : {".gltf", ".glb", ".atrium"}) {
+        for (const char* suffix : suffixes) {
             if (path.endsWith(QLatin1StringView(suffix), Qt::CaseInsensitive)) {
                 return path;
             }
@@ -58,6 +59,9 @@ QString dropped_file(const QMimeData* data) {
     }
     return {};
 }
+
+QString dropped_scene(const QMimeData* data) { return dropped_file(data, {".gltf", ".glb", ".atrium"}); }
+QString dropped_photometry(const QMimeData* data) { return dropped_file(data, {".ies", ".ldt"}); }
 
 const std::pair<ActionId, ToolKind> kTools[] = {{ActionId::ToolSelect, ToolKind::Select},
                                                 {ActionId::ToolMove, ToolKind::Move},
@@ -93,6 +97,7 @@ MainWindow::MainWindow(const QString& recovery_directory, QWidget* parent) : QMa
     actions_ = new Actions(this);
     files_ = new FileController(document_, *engine_, *recovery_, this);
     edit_ = new EditController(document_, this);
+    photometry_ = new PhotometryController(document_, this);
 
     auto* centre = new QWidget;
     auto* layout = new QVBoxLayout(centre);
@@ -281,7 +286,7 @@ void MainWindow::make_menus() {
                        ActionId::Commands});
     fill(tr("&Add"), {ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder, ActionId::AddCone,
                       ActionId::AddDisc, gap, ActionId::AddPointLight, ActionId::AddSpotLight, ActionId::AddAreaLight,
-                      ActionId::AddSun, ActionId::AddDaylight, gap, ActionId::AddCamera});
+                      ActionId::AddLuminaire, ActionId::AddSun, ActionId::AddDaylight, gap, ActionId::AddCamera});
     auto* view = fill(tr("&View"), {ActionId::FrameSelection,
                                     ActionId::FrameAll,
                                     ActionId::WalkMode,
@@ -439,6 +444,9 @@ void MainWindow::connect_edit() {
             }
         });
     }
+    on(ActionId::AddLuminaire, [this] { photometry_->choose_and_add([this] { return lamp_place(); }); });
+    connect(photometry_, &PhotometryController::message, this, &MainWindow::say);
+    connect(properties_, &PropertiesPanel::choose_photometry, photometry_, &PhotometryController::choose);
     on(ActionId::AddCamera, [this] {
         started_ = true;
         update_page();
@@ -672,16 +680,49 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-    if (!dropped_file(event->mimeData()).isEmpty()) {
+    if (!dropped_scene(event->mimeData()).isEmpty() || !dropped_photometry(event->mimeData()).isEmpty()) {
         event->acceptProposedAction();
     }
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {
-    const QString path = dropped_file(event->mimeData());
-    if (!path.isEmpty()) {
+    if (const QString path = dropped_scene(event->mimeData()); !path.isEmpty()) {
         event->acceptProposedAction();
         files_->open(path);
+    } else if (const QString file = dropped_photometry(event->mimeData()); !file.isEmpty()) {
+        event->acceptProposedAction();
+        drop_photometry(file, event->position());
+    }
+}
+
+dvec3 MainWindow::lamp_place() {
+    started_ = true;
+    update_page();
+    return document_.scene().nodes.empty() ? dvec3(0.0, kLampHeight, 0.0) : viewport_->lamp_place();
+}
+
+void MainWindow::drop_photometry(const QString& path, const QPointF& position) {
+    if (document_.scene().nodes.empty()) {
+        photometry_->add(path, lamp_place());
+        return;
+    }
+    const QPointF point = viewport_->mapFrom(this, position);
+    if (!viewport_->rect().contains(point.toPoint())) {
+        // Onto a panel: meant for what is selected.
+        const std::vector<LightId> lamps = photometry_->lamps_of(document_.selection()->active());
+        if (!lamps.empty()) {
+            photometry_->assign(path, lamps);
+        } else {
+            say(tr("Drop the file onto a lamp in the view, or where a new lamp is to hang."));
+        }
+        return;
+    }
+    const ViewportWidget::DropPlace place = viewport_->drop_place(point);
+    const std::vector<LightId> lamps = photometry_->lamps_of(place.node);
+    if (lamps.empty()) {
+        photometry_->add(path, place.lamp);
+    } else {
+        photometry_->assign(path, lamps);
     }
 }
 

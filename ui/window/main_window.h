@@ -25,6 +25,7 @@ class EditController;
 class FalseColorBar;
 class FileController;
 class ImportBar;
+class PhotometryController;
 class PropertiesPanel;
 class SceneTreePanel;
 class StartPage;
@@ -44,6 +45,7 @@ public:
     [[nodiscard]] ViewportWidget& viewport() { return *viewport_; }
     [[nodiscard]] FileController& files() { return *files_; }
     [[nodiscard]] SceneTreePanel& tree() { return *tree_; }
+    [[nodiscard]] PhotometryController& photometry() { return *photometry_; }
     [[nodiscard]] CausticPanel& caustics() { return *caustics_; }
     [[nodiscard]] FalseColorBar& false_color_bar() { return *false_color_bar_; }
     [[nodiscard]] ConvergencePanel& convergence() { return *convergence_; }
@@ -72,6 +74,8 @@ private:
     void update_page();
     void update_recent();
     void export_picture();
+    dvec3 lamp_place(); ///< where a new lamp hangs; leaves the start page
+    void drop_photometry(const QString& path, const QPointF& position);
     void say(const QString& text);
     void on(ActionId id, std::function<void()> slot);
 
@@ -81,6 +85,7 @@ private:
     Actions* actions_ = nullptr;
     FileController* files_ = nullptr;
     EditController* edit_ = nullptr;
+    PhotometryController* photometry_ = nullptr;
     ViewportWidget* viewport_ = nullptr;
     StartPage* start_ = nullptr;
     ImportBar* import_bar_ = nullptr;

@@ -14,6 +14,7 @@ const QString kGeometry = QStringLiteral("window/geometry");
 const QString kLayout = QStringLiteral("window/layout1"); // the number rises when the docks change
 const QString kRecent = QStringLiteral("files/recent");
 const QString kFolder = QStringLiteral("files/folder");
+const QString kPhotometryFolder = QStringLiteral("files/photometry_folder");
 const QString kDirect = QStringLiteral("view/direct_light");
 const QString kDiffuse = QStringLiteral("view/diffuse_light");
 const QString kCaustic = QStringLiteral("view/caustics");
@@ -72,6 +73,13 @@ QString Settings::last_folder() const {
 }
 
 void Settings::set_last_folder(const QString& folder) { QSettings().setValue(kFolder, folder); }
+
+QString Settings::photometry_folder() const {
+    const QString folder = QSettings().value(kPhotometryFolder).toString();
+    return !folder.isEmpty() && QDir(folder).exists() ? folder : last_folder();
+}
+
+void Settings::set_photometry_folder(const QString& folder) { QSettings().setValue(kPhotometryFolder, folder); }
 
 LightShares Settings::light_shares() const {
     const QSettings settings;

@@ -34,6 +34,8 @@ public:
     void remove_recent(const QString& path);
     [[nodiscard]] QString last_folder() const;
     void set_last_folder(const QString& folder);
+    [[nodiscard]] QString photometry_folder() const; ///< where the last photometric file came from; else last_folder()
+    void set_photometry_folder(const QString& folder);
     [[nodiscard]] LightShares light_shares() const; ///< what the view shows of the light; never nothing
     void set_light_shares(const LightShares& shares);
     [[nodiscard]] std::optional<LightQuantity> false_color() const; ///< none: the picture
