@@ -100,7 +100,7 @@ TEST_F(Convergence, ShowsTheFiguresOfTheSolutionAndSavesThePlot) {
     ASSERT_TRUE(QTest::qWaitFor(
         [&] { // complete, and its error measured
             return window->engine().status().state == SessionStatus::State::Idle && window->engine().solution() &&
-                   window->engine().solution()->final;
+                   window->engine().solution()->final && window->engine().solution()->statistics.audit.points > 0;
         },
         60000));
     settle();

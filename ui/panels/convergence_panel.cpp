@@ -172,7 +172,8 @@ void ConvergencePanel::refresh_live_phases() {
 void ConvergencePanel::refresh_plot() {
     const auto& all = log_.samples();
     const SessionStatus status = engine_.status();
-    const bool solving = status.state == SessionStatus::State::Solving;
+    // Measuring the error of what is complete is no step on the way.
+    const bool solving = status.state == SessionStatus::State::Solving && status.phase != "audit";
     const bool session = span_->currentIndex() == 1;
     std::span<const ConvergenceSample> shown(all);
     double now = -1.0;
