@@ -1,6 +1,7 @@
 // atrium-cli render: a still through one of the scene's cameras.
 #include "app/cli_commands.h"
 #include "app/cli_solving.h"
+#include "engine/measure/light_range.h"
 #include "engine/view/still.h"
 #include "engine/view/tone.h"
 
@@ -9,6 +10,8 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <memory>
 #include <optional>
 
@@ -23,6 +26,11 @@ struct Arguments {
     std::string size = "1280x720";
     std::optional<double> exposure;
     std::string layers;
+    std::string false_color;
+    std::string range;
+    std::string scale = "log";
+    std::string legend;
+    bool contours = false;
     SolveArguments solve;
 };
 
@@ -57,10 +65,67 @@ Result<LayerChoice> parse_layers(const std::string& text) {
     return choice;
 }
 
+/// What `--false-colour` and its companions ask for; `automatic` when the range is to be found.
+struct ScaleWish {
+    FalseColor scale;
+    bool automatic = true;
+};
+
+Result<ScaleWish> parse_scale(const Arguments& a) {
+    ScaleWish wish;
+    wish.scale.quantity = a.false_color == "luminance" ? LightQuantity::Luminance : LightQuantity::Illuminance;
+    wish.scale.logarithmic = a.scale == "log";
+    wish.scale.contours = a.contours;
+    if (!a.range.empty()) {
+        const std::size_t comma = a.range.find(',');
+        const char* end = a.range.data() + a.range.size();
+        const char* middle = a.range.data() + std::min(comma, a.range.size());
+        double low = 0.0;
+        double high = 0.0;
+        const auto first = std::from_chars(a.range.data(), middle, low);
+        const bool good = comma != std::string::npos && first.ec == std::errc() && first.ptr == middle &&
+                          std::from_chars(middle + 1, end, high).ec == std::errc() && low >= 0.0 && high > low &&
+                          std::isfinite(high) && (low > 0.0 || !wish.scale.logarithmic);
+        if (!good) {
+            return fail("", "--range", fmt::format("'{}' is not a range of light", a.range),
+                        "Give two rising numbers in lux or cd/m2, as 0,500; a logarithmic scale starts above 0.");
+        }
+        wish.scale.minimum = low;
+        wish.scale.maximum = high;
+        wish.automatic = false;
+    }
+    wish.scale = valid_scale(wish.scale);
+    return wish;
+}
+
+/// The scale's round amounts and ends with the colours that they have in the picture.
+std::string legend_csv(const FalseColor& scale) {
+    std::vector<double> values = round_values(scale);
+    values.push_back(scale.minimum);
+    values.push_back(scale.maximum);
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    std::string out = fmt::format("{},colour\n", scale.quantity == LightQuantity::Illuminance ? "lux" : "cd/m2");
+    for (const double value : values) {
+        const Rgb c = false_color(scale, value);
+        const auto byte = [](float x) { return int(std::lround(255.0F * x)); };
+        out += fmt::format("{:.6g},#{:02x}{:02x}{:02x}\n", value, byte(c.r), byte(c.g), byte(c.b));
+    }
+    return out;
+}
+
 int run(const Arguments& a) {
     const std::string extension = extension_of(a.out);
     if (extension != ".exr" && extension != ".png") {
         return refuse({a.out, "", "cannot be written in this format", "Use a name that ends in .exr or .png."});
+    }
+    if (!a.false_color.empty() && extension != ".png") {
+        return refuse({a.out, "", "an .exr holds amounts of light, not colours that stand for them",
+                       "Use a name that ends in .png, or leave --false-colour out."});
+    }
+    const auto wish = parse_scale(a);
+    if (!wish) {
+        return refuse(wish.error());
     }
     const auto size = parse_size(a.size);
     const auto layers = parse_layers(a.layers);
@@ -70,8 +135,10 @@ int run(const Arguments& a) {
     StillOptions options;
     options.width = size->first;
     options.height = size->second;
-    if (auto fine = check_output(a.out); !fine) {
-        return refuse(fine.error());
+    for (const std::string* path : {&a.out, &a.legend}) {
+        if (auto fine = check_output(*path); !fine) {
+            return refuse(fine.error());
+        }
     }
     auto solved = open_scene(a.file, a.solve);
     if (!solved) {
@@ -94,18 +161,29 @@ int run(const Arguments& a) {
     if (!layers->specular) {
         options.max_specular_depth = 0;
     }
-    Picture picture = render_still(solved->scene, *solved->solution, *camera, options, context);
+    FalseColor scale = wish->scale;
+    if (!a.false_color.empty() && wish->automatic) {
+        scale = fitted_scale(scale, light_range(solved->scene, *solved->solution, scale.quantity, options.shares));
+    }
+    const bool amounts = !a.false_color.empty();
+    Picture picture = amounts ? render_false_color(solved->scene, *solved->solution, *camera, options, scale, context)
+                              : render_still(solved->scene, *solved->solution, *camera, options, context);
     finish_progress();
     solved->stopped = solved->stopped || context.should_stop();
-    if (extension == ".png") {
+    if (extension == ".png" && !amounts) {
         const float ev = a.exposure ? float(*a.exposure) : camera->lens.exposure_ev;
-        const float scale = exposure_scale(solved->solution->mean_radiance, ev);
+        const float exposure = exposure_scale(solved->solution->mean_radiance, ev);
         for (Rgb& pixel : picture.pixels) {
-            pixel = display_color(pixel, scale);
+            pixel = display_color(pixel, exposure);
         }
     }
     if (auto written = write_picture(a.out, picture); !written) {
         return refuse(written.error());
+    }
+    if (amounts && !a.legend.empty()) {
+        if (auto written = write_text(a.legend, legend_csv(scale)); !written) {
+            return refuse(written.error());
+        }
     }
     return finish(*solved, a.solve);
 }
@@ -123,6 +201,19 @@ void add_render(CLI::App& app, int& status) {
     command->add_option("--exposure", a->exposure, "Stops above automatic exposure, .png only (default: the camera's own)")
         ->check(CLI::Range(-30.0, 30.0));
     command->add_option("--layers", a->layers, "Of direct,diffuse,caustic,specular (default: all)");
+    auto* false_color =
+        command
+            ->add_option("--false-colour", a->false_color,
+                         "Show an amount of light in colours: illuminance (lux) or luminance (cd/m2); .png only")
+            ->check(CLI::IsMember({"illuminance", "luminance"}));
+    command->add_option("--range", a->range, "Ends of its scale, as 20,2000 (default: fitted to the scene's light)")
+        ->needs(false_color);
+    command->add_option("--scale", a->scale, "Its scale: log or linear")
+        ->check(CLI::IsMember({"log", "linear"}))
+        ->needs(false_color);
+    command->add_flag("--contours", a->contours, "Lines at its round amounts")->needs(false_color);
+    command->add_option("--legend", a->legend, "Write its amounts and their colours as CSV to this file")
+        ->needs(false_color);
     add_solve_options(*command, a->solve);
     command->callback([a, &status] { status = run(*a); });
 }

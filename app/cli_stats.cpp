@@ -2,6 +2,7 @@
 
 #include "engine/base/parallel.h"
 #include "engine/geometry/tessellate.h"
+#include "engine/solver/statistics_figures.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -70,15 +71,26 @@ Json problems_json(const std::vector<Problem>& problems) {
     return out;
 }
 
-Json memory_json(const Statistics& s) {
-    return {{"elements", s.memory.elements},
-            {"links", s.memory.links},
-            {"particles", s.memory.particles},
-            {"octree", s.memory.octree},
-            {"caustic_textures", s.memory.caustic_textures},
-            {"layers", s.memory.layers},
-            {"ray_scene", s.memory.ray_scene},
-            {"peak_rss", peak_resident_bytes()}};
+namespace {
+
+/// Groups become objects.
+Json figures_json(const Statistics& s) {
+    Json out = Json::object();
+    for (const StatisticsFigure& figure : statistics_figures(s)) {
+        const std::size_t point = figure.key.find('.');
+        Json& place =
+            point == std::string::npos ? out[figure.key] : out[figure.key.substr(0, point)][figure.key.substr(point + 1)];
+        std::visit([&place](auto v) { place = v; }, figure.value);
+    }
+    return out;
+}
+
+} // namespace
+
+Json memory_json(const Statistics& statistics) {
+    Statistics s = statistics;
+    s.memory.peak_rss = peak_resident_bytes();
+    return figures_json(s)["memory"];
 }
 
 std::string surface_name(const Scene& scene, NodeId id) {
@@ -156,31 +168,17 @@ Json statistics_object(const Solved& solved) {
                    {"first_picture", solved_here ? s.time.first_picture : 0.0},
                    {"total", seconds_since_start()}};
     out["phases"] = phases;
-    out["iterations"] = s.iterations;
-    out["converged"] = s.converged && !solved.stopped;
-    out["residual"] = s.residual;
-    out["error_estimate"] = s.error_estimate;
-    out["error_audit"] = {{"rms", s.audit.rms},
-                          {"low", s.audit.low},
-                          {"high", s.audit.high},
-                          {"bias", s.audit.bias},
-                          {"bias_error", s.audit.bias_error},
-                          {"points", s.audit.points},
-                          {"paths", s.audit.paths},
-                          {"rays", s.audit.rays},
-                          {"seconds", s.audit.seconds}};
-    out["elements"] = s.elements;
-    out["clusters"] = s.clusters;
-    out["links"] = s.links;
-    out["rays"] = s.rays;
-    out["particles_emitted"] = s.particles_emitted;
-    out["particles_stored"] = s.particles_stored;
+    s.converged = s.converged && !solved.stopped;
+    s.memory.peak_rss = peak_resident_bytes();
+    const Json figures = figures_json(s);
+    for (const auto& [key, value] : figures.items()) {
+        if (key != "memory" && key != "energy") { // they come last
+            out[key] = value;
+        }
+    }
     out["caustic_textures"] = solved.solution ? caustic_records_json(solved.scene, *solved.solution) : Json(Json::array());
-    out["memory"] = memory_json(s);
-    out["energy"] = {{"emitted", s.energy.emitted},
-                     {"absorbed", s.energy.absorbed},
-                     {"escaped", s.energy.escaped},
-                     {"defect", s.energy.defect}};
+    out["memory"] = figures["memory"];
+    out["energy"] = figures["energy"];
     out["stopped"] = solved.stopped;
     out["solution_reused"] = solved.from_file;
     return out;

@@ -1,6 +1,8 @@
 // The editor: atrium [FILE]. With --screenshot FILE.png it opens, waits for the light, takes its own picture and quits.
 #include "app/program_help.h"
 #include "engine/base/version.h"
+#include "ui/viewport/viewport_widget.h"
+#include "ui/window/false_color_bar.h"
 #include "ui/window/file_controller.h"
 #include "ui/window/main_window.h"
 
@@ -23,8 +25,9 @@ namespace {
 /// Saves a picture of the window once the light is up to date, or after `limit_ms`; then ends the program.
 class Screenshot : public QObject {
 public:
-    Screenshot(atrium::ui::MainWindow& window, QString file, int limit_ms)
-        : QObject(&window), window_(window), file_(std::move(file)) {
+    /// `points` to be measured, in shares of the view's width and height.
+    Screenshot(atrium::ui::MainWindow& window, QString file, int limit_ms, QList<QPointF> points)
+        : QObject(&window), window_(window), file_(std::move(file)), points_(std::move(points)) {
         connect(&window_.engine(), &atrium::ui::EngineLink::status_changed, this, [this] {
             const auto solution = window_.engine().solution();
             if (solution && solution->final && !window_.engine().stale()) {
@@ -38,14 +41,22 @@ private:
     void take_soon() {
         if (!soon_) {
             soon_ = true;
-            QTimer::singleShot(700, this, [this] { take(); }); // the view uploads and paints, panels settle
+            QTimer::singleShot(1500, this, [this] { take(); }); // the view uploads and paints, panels settle
         }
     }
     void take() {
         if (taken_) {
             return;
         }
+        if (window_.false_color_bar().fitting()) {
+            QTimer::singleShot(500, this, [this] { take(); });
+            return;
+        }
         taken_ = true;
+        for (const QPointF& point : points_) {
+            auto& view = window_.viewport();
+            view.add_measuring_point({point.x() * view.width(), point.y() * view.height()});
+        }
         const bool saved = window_.grab().save(file_);
         if (!saved) {
             QTextStream(stderr) << QObject::tr("%1: the picture could not be written").arg(file_) << '\n';
@@ -54,6 +65,7 @@ private:
     }
     atrium::ui::MainWindow& window_;
     QString file_;
+    QList<QPointF> points_;
     bool soon_ = false;
     bool taken_ = false;
 };
@@ -129,13 +141,17 @@ int main(int argc, char** argv) {
                                     QStringLiteral("NODE"));
     const QCommandLineOption panel(QStringLiteral("panel"),
                                    QObject::tr("bring a panel to the front: library, tree, properties, jobs, problems, "
-                                               "caustics; none puts all away"),
+                                               "caustics, convergence; none puts all away"),
                                    QStringLiteral("NAME"));
     const QCommandLineOption command(QStringLiteral("command"),
                                      QObject::tr("run a command of the menus by its name (caustic_boxes, wireframe, ...) "
                                                  "once the file is open; may be repeated"),
                                      QStringLiteral("NAME"));
-    const QList<QCommandLineOption> options{screenshot, wait, size, sample, select, panel, command};
+    const QCommandLineOption measure(QStringLiteral("measure-at"),
+                                     QObject::tr("with --screenshot: put a measuring point at this place of the view, in "
+                                                 "shares of its width and height; may be repeated"),
+                                     QStringLiteral("X,Y"));
+    const QList<QCommandLineOption> options{screenshot, wait, size, sample, select, panel, command, measure};
     parser.addOptions(options);
     if (argc == 2 && std::string_view(argv[1]).substr(0, 8) == "--write-") { // for the build, from the same tables as --help
         const auto told = program_help(parser, QList<QCommandLineOption>{help, version} + options);
@@ -193,7 +209,12 @@ int main(int argc, char** argv) {
         window.files().open_sample();
     }
     if (parser.isSet(screenshot)) {
-        new Screenshot(window, parser.value(screenshot), int(parser.value(wait).toDouble() * 1000));
+        QList<QPointF> points;
+        for (const QString& place : parser.values(measure)) {
+            const QStringList numbers = place.split(QLatin1Char(','));
+            points.append({numbers.value(0).toDouble(), numbers.value(1).toDouble()});
+        }
+        new Screenshot(window, parser.value(screenshot), int(parser.value(wait).toDouble() * 1000), points);
     } else {
         window.files().offer_recovery();
     }

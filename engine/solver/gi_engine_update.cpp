@@ -460,7 +460,8 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     solution->final = false;
     solution->surfaces = shown_surfaces(s);
     solution->caustic_records = s.caustics.records;
-    std::erase_if(solution->caustic_records, [&](const CausticRecord& r) { return scene.nodes.find(r.node) == nullptr || !scene.shown(r.node); });
+    std::erase_if(solution->caustic_records,
+                  [&](const CausticRecord& r) { return scene.nodes.find(r.node) == nullptr || !scene.shown(r.node); });
     solution->landings = options.keep_landings ? landing_places(*s.rays, s.particles.get()) : nullptr;
     solution->mean_radiance = live.relight ? live.relight->mean_radiance * live.relight->brightening(s) : live.mean_radiance;
     if (live.relight && live.exchange) {

@@ -94,6 +94,34 @@ public:
         return sum;
     }
 
+    /// What a ray meets in false colour: the first surface that is not looked through.
+    struct Met {
+        Hit hit;             ///< none: the outside
+        bool matt = false;   ///< scatters the light that arrives
+        bool even = false;   ///< without a texture
+        float facing = 1.0F; ///< cosine between the ray and its normal
+    };
+    [[nodiscard]] Met meet(Ray ray) const {
+        for (int pass = 0; pass < 64; ++pass) {
+            const Hit hit = rays_.nearest(ray);
+            if (!hit) {
+                return {};
+            }
+            const Material& m = rays_.material(hit.surface);
+            const MaterialKind kind = classify(m);
+            const bool glass = kind == MaterialKind::DielectricThin || kind == MaterialKind::DielectricSolid;
+            const bool faint = m.alpha_mode == Material::Alpha::Blend &&
+                               rays_.base_color(hit.surface, hit.triangle, hit.barycentric).a < 0.5F;
+            if (!glass && !faint && (hit.front || m.double_sided)) {
+                return {hit, kind == MaterialKind::Diffuse && !m.unlit, !m.base_color_texture && !m.emissive_texture,
+                        std::abs(glm::dot(smooth_normal(hit, ray.direction), ray.direction))};
+            }
+            ray.origin += ray.direction * (hit.t + 2e-5F + 1e-6F * hit.t);
+        }
+        return {};
+    }
+    [[nodiscard]] float illuminance(const Hit& hit) const { return luminance(lit_.irradiance(hit, shares_)); }
+
 private:
     static vec3 facing(const Hit& hit) { return hit.front ? hit.geometric_normal : -hit.geometric_normal; }
 
@@ -196,49 +224,149 @@ std::array<vec3, 3> camera_axes(const dmat4& to_world) {
     return {vec3(right), vec3(up), vec3(back)};
 }
 
-} // namespace
-
-Picture render_still(const Scene& scene, const Solution& solution, const ViewCamera& camera, const StillOptions& options,
-                     const RunContext& context) {
-    Picture out;
-    out.width = std::max(options.width, 1);
-    out.height = std::max(options.height, 1);
-    out.pixels.assign(std::size_t(out.width) * std::size_t(out.height), vec3(0.0F));
-    const LitScene lit(scene, solution);
-    const EyeTracer tracer(lit, scene.environment.sky_radiance, options);
+/// Calls sample(pixel, index of the sample within it, ray) for all samples of all pixels, in parallel over pixels, then
+/// done(pixel). Stops between bands of rows when the context says so.
+template <class Sample, class Done>
+void look_through(const ViewCamera& camera, const LitScene& lit, int width, int height, int samples,
+                  const RunContext& context, Sample&& sample, Done&& done) {
     const vec3 eye(dvec3(camera.to_world[3]) - lit.rays().origin());
-    const auto [right, up, back] = camera_axes(camera.to_world);
-    const vec3 forward = -back;
-    const float aspect = float(out.width) / float(out.height);
+    const auto axes = camera_axes(camera.to_world);
+    const vec3 right = axes[0];
+    const vec3 up = axes[1];
+    const vec3 forward = -axes[2];
+    const float aspect = float(width) / float(height);
     const float half_height = camera.lens.perspective ? std::tan(0.5F * camera.lens.yfov) : camera.lens.ymag;
-    const int n = std::max(options.samples_per_axis, 1);
+    const int n = samples;
     const std::size_t band = 8; // rows between two looks at the stop flag
-    const auto rows = std::size_t(out.height);
+    const auto rows = std::size_t(height);
     for (std::size_t first = 0; first < rows && !context.should_stop(); first += band) {
-        const std::size_t count = std::min(band, rows - first) * std::size_t(out.width);
+        const std::size_t count = std::min(band, rows - first) * std::size_t(width);
         parallel_chunks(count, 64, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) {
-                const std::size_t pixel = first * std::size_t(out.width) + i;
-                const auto x = float(pixel % std::size_t(out.width));
-                const auto y = float(pixel / std::size_t(out.width));
-                Rgb sum(0.0F);
+                const std::size_t pixel = first * std::size_t(width) + i;
+                const auto x = float(pixel % std::size_t(width));
+                const auto y = float(pixel / std::size_t(width));
                 for (int s = 0; s < n * n; ++s) {
                     const vec2 offset((float(s % n) + 0.5F) / float(n), (float(s / n) + 0.5F) / float(n));
-                    const float sx = (2.0F * (x + offset.x) / float(out.width) - 1.0F) * half_height * aspect;
-                    const float sy = (1.0F - 2.0F * (y + offset.y) / float(out.height)) * half_height;
+                    const float sx = (2.0F * (x + offset.x) / float(width) - 1.0F) * half_height * aspect;
+                    const float sy = (1.0F - 2.0F * (y + offset.y) / float(height)) * half_height;
                     Ray ray;
                     if (camera.lens.perspective) {
                         ray = {eye, glm::normalize(forward + sx * right + sy * up)};
                     } else {
                         ray = {eye + sx * right + sy * up, forward};
                     }
-                    const auto seed = std::uint32_t(hash64(pixel * 64 + std::size_t(s)));
-                    sum += tracer.radiance(ray, 0, 1.0F, seed);
+                    sample(pixel, s, ray);
                 }
-                out.pixels[pixel] = sum / float(n * n);
+                done(pixel);
             }
         });
         context.progress("render", double(std::min(first + band, rows)) / double(rows));
+    }
+}
+
+Picture empty_picture(const StillOptions& options) {
+    Picture out;
+    out.width = std::max(options.width, 1);
+    out.height = std::max(options.height, 1);
+    out.pixels.assign(std::size_t(out.width) * std::size_t(out.height), vec3(0.0F));
+    return out;
+}
+
+constexpr std::uint32_t kNoSurface = 0xFFFFFFFFU;
+/// Tells the sides of a box apart, whose light has no contours in common.
+std::uint32_t side_of(const Hit& hit) {
+    const vec3 n = glm::abs(hit.geometric_normal);
+    const std::uint32_t axis = n.x >= n.y && n.x >= n.z ? 0U : (n.y >= n.z ? 1U : 2U);
+    return hit.surface * 6U + axis * 2U + (hit.geometric_normal[int(axis)] < 0.0F ? 1U : 0U);
+}
+
+constexpr float kHalfLine = 0.75F; ///< pixels: half the width of a contour, as in the viewport
+
+/// Draws contours over a finished picture. `amounts` and `surfaces` by pixel; none where kNoSurface.
+void draw_contours(Picture& picture, const FalseColor& scale, const std::vector<float>& amounts,
+                   const std::vector<std::uint32_t>& surfaces) {
+    std::vector<double> levels = round_values(scale);
+    std::erase_if(levels, [&](double level) { return level <= scale.minimum; });
+    const auto width = std::size_t(picture.width);
+    for (std::size_t i = 0; i < amounts.size(); ++i) {
+        if (surfaces[i] == kNoSurface) {
+            continue;
+        }
+        // Change to the next pixels of the same surface; edges of things are no contours.
+        const auto change = [&](std::size_t step, bool before, bool after) {
+            float out = 0.0F;
+            if (before && surfaces[i - step] == surfaces[i]) {
+                out = std::abs(amounts[i] - amounts[i - step]);
+            }
+            if (after && surfaces[i + step] == surfaces[i]) {
+                out = std::max(out, std::abs(amounts[i + step] - amounts[i]));
+            }
+            return out;
+        };
+        const std::size_t x = i % width;
+        const float slope = change(1, x > 0, x + 1 < width) + change(width, i >= width, i + width < amounts.size());
+        if (!(slope > 0.0F)) {
+            continue;
+        }
+        float line = 0.0F;
+        for (const double level : levels) {
+            line = std::max(line, kHalfLine + 0.5F - std::abs(amounts[i] - float(level)) / slope);
+        }
+        const Rgb ink(scale_place(scale, double(amounts[i])) < 0.55F ? 1.0F : 0.0F);
+        picture.pixels[i] = glm::mix(picture.pixels[i], ink, 0.85F * std::clamp(line, 0.0F, 1.0F));
+    }
+}
+
+} // namespace
+
+Picture render_still(const Scene& scene, const Solution& solution, const ViewCamera& camera, const StillOptions& options,
+                     const RunContext& context) {
+    Picture out = empty_picture(options);
+    const LitScene lit(scene, solution);
+    const EyeTracer tracer(lit, scene.environment.sky_radiance, options);
+    const int n = std::max(options.samples_per_axis, 1);
+    look_through(
+        camera, lit, out.width, out.height, n, context,
+        [&](std::size_t pixel, int s, const Ray& ray) {
+            out.pixels[pixel] += tracer.radiance(ray, 0, 1.0F, std::uint32_t(hash64(pixel * 64 + std::size_t(s))));
+        },
+        [&](std::size_t pixel) { out.pixels[pixel] /= float(n * n); });
+    return out;
+}
+
+Picture render_false_color(const Scene& scene, const Solution& solution, const ViewCamera& camera,
+                           const StillOptions& options, const FalseColor& wanted, const RunContext& context) {
+    const FalseColor scale = valid_scale(wanted);
+    Picture out = empty_picture(options);
+    std::vector<float> amounts(out.pixels.size(), 0.0F);
+    std::vector<std::uint32_t> surfaces(out.pixels.size(), kNoSurface);
+    const LitScene lit(scene, solution);
+    const EyeTracer tracer(lit, scene.environment.sky_radiance, options);
+    const bool bright_sky = max_component(scene.environment.sky_radiance) > 0.0F && options.shares.direct;
+    const int n = std::max(options.samples_per_axis, 1);
+    look_through(
+        camera, lit, out.width, out.height, n, context,
+        [&](std::size_t pixel, int s, const Ray& ray) {
+            const EyeTracer::Met met = tracer.meet(ray);
+            const bool illuminance = scale.quantity == LightQuantity::Illuminance;
+            const bool known = illuminance ? bool(met.hit) && met.matt : bool(met.hit) || bright_sky;
+            if (!known) {
+                out.pixels[pixel] += Rgb(met.hit ? glm::mix(0.30F, 0.58F, std::min(met.facing, 1.0F)) : 0.27F);
+                surfaces[pixel] = kNoSurface;
+                return;
+            }
+            const float amount =
+                illuminance ? tracer.illuminance(met.hit)
+                            : luminance(tracer.radiance(ray, 0, 1.0F, std::uint32_t(hash64(pixel * 64 + std::size_t(s)))));
+            out.pixels[pixel] += false_color(scale, double(amount));
+            amounts[pixel] += amount / float(n * n);
+            const bool drawn = met.hit && met.matt && (illuminance || met.even);
+            surfaces[pixel] = drawn && (s == 0 || surfaces[pixel] == side_of(met.hit)) ? side_of(met.hit) : kNoSurface;
+        },
+        [&](std::size_t pixel) { out.pixels[pixel] /= float(n * n); });
+    if (scale.contours) {
+        draw_contours(out, scale, amounts, surfaces);
     }
     return out;
 }

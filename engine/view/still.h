@@ -5,6 +5,7 @@
 #include "engine/base/run_context.h"
 #include "engine/io/image_file.h"
 #include "engine/solver/solution.h"
+#include "engine/view/false_color.h"
 
 namespace atrium {
 
@@ -30,5 +31,11 @@ struct StillOptions {
 /// Linear radiance picture, cd/m2. Deterministic. Stops with what it has (rest black) when the context says so.
 Picture render_still(const Scene& scene, const Solution& solution, const ViewCamera& camera, const StillOptions& options,
                      const RunContext& context);
+
+/// The same view in the colours of a scale (display values, for .png), contours included. Luminance is what the eye meets,
+/// mirrors and glass included. Illuminance is that of the first matt surface, glass looked through; metals, mirrors and what
+/// lies outside have none and are grey. `options.shares` count for both.
+Picture render_false_color(const Scene& scene, const Solution& solution, const ViewCamera& camera,
+                           const StillOptions& options, const FalseColor& scale, const RunContext& context);
 
 } // namespace atrium

@@ -1,7 +1,8 @@
 #version 330 core
 // Compiled in variants, since a software rasteriser executes every branch: TEXTURED (textures, alpha mask), SPECULAR (metal
 // and glass), HEADLIGHT (no light known yet), CUT (walls that hide the room from outside are left out, see cutaway.h),
-// LIGHT_MAP (direct light in a map, engine/layers/light_map.h), CAUSTICS (engine/caustics/caustic_texture.h).
+// LIGHT_MAP (direct light in a map, engine/layers/light_map.h), CAUSTICS (engine/caustics/caustic_texture.h), MEASURE (amounts
+// of light in false colour instead of the picture, engine/view/false_color.h).
 // radiance = emitted + rho * irradiance / pi, then exposure, filmic curve and sRGB as in engine/view/tone.h.
 in vec3 v_position;
 in vec3 v_normal;
@@ -52,6 +53,17 @@ uniform vec3 u_room_max;
 uniform vec3 u_filter; // what the mirror that one looks into leaves of the light
 uniform float u_exposure;
 uniform bool u_linear; // the probe keeps radiance
+
+#ifdef MEASURE
+uniform sampler2D u_color_map; // one row, dark to bright
+uniform bool u_illuminance;    // else luminance
+uniform bool u_known;          // false where the surface has no such amount
+uniform bool u_logarithmic;
+uniform vec2 u_range;          // ends of the scale; their logarithms on a logarithmic one
+uniform int u_level_count;
+uniform float u_levels[24];    // where contours run
+uniform float u_line;          // half the width of a contour, pixels
+#endif
 
 #ifdef CUT
 uniform vec3 u_cut_side;
@@ -150,6 +162,33 @@ vec3 caustics(vec2 uv, vec2 pixel, out vec3 edge) {
 }
 #endif
 
+#ifdef MEASURE
+const vec3 kLuminance = vec3(0.2126, 0.7152, 0.0722);
+
+// Forms stay readable in grey, which no amount has.
+vec3 unknown(float facing) { return vec3(mix(0.30, 0.58, facing)); }
+
+// scale_place() and map_color().
+vec3 in_false_color(float amount) {
+    float at = u_logarithmic ? log(max(amount, 1e-12)) : amount;
+    float place = clamp((at - u_range.x) / (u_range.y - u_range.x), 0.0, 1.0);
+    float size = float(textureSize(u_color_map, 0).x);
+    vec3 color = textureLod(u_color_map, vec2((place * (size - 1.0) + 0.5) / size, 0.5), 0.0).rgb;
+    // Change over a pixel; even light that happens to lie at a level is no line.
+    float slope = max(fwidth(amount), 1e-6 * amount + 1e-12);
+    float line = 0.0;
+#ifdef TEXTURED
+    int count = u_illuminance ? u_level_count : 0; // every knot in the wood would have its own
+#else
+    int count = u_level_count;
+#endif
+    for (int i = 0; i < count; ++i) {
+        line = max(line, clamp(u_line + 0.5 - abs(amount - u_levels[i]) / slope, 0.0, 1.0));
+    }
+    return mix(color, vec3(place < 0.55 ? 1.0 : 0.0), 0.85 * line);
+}
+#endif
+
 void main() {
 #ifdef CUT
     if (any(greaterThan(u_cut_side * (v_position - u_cut_plane) * step(u_cut_facing, abs(normalize(v_normal))), vec3(0.0)))) {
@@ -170,6 +209,13 @@ void main() {
     }
 #endif
     float alpha = u_alpha_mode == 2 ? base.a : 1.0;
+#ifdef MEASURE
+    // A mixture of two colours would stand for an amount that is nowhere.
+    if (alpha < 0.5) {
+        discard;
+    }
+    alpha = 1.0;
+#endif
     vec3 rho = clamp(base.rgb, vec3(0.0), vec3(0.9999)); // kMaxReflectance
     vec3 irradiance = gl_FrontFacing || !u_has_back ? v_front : v_back;
 #ifdef LIGHT_MAP
@@ -182,7 +228,7 @@ void main() {
 #endif
     vec3 radiance = emitted + rho * u_diffuse_share * max(irradiance, vec3(0.0)) * kInvPi;
 
-#if defined(SPECULAR) || defined(HEADLIGHT)
+#if defined(SPECULAR) || defined(HEADLIGHT) || defined(MEASURE)
     vec3 eye = normalize(-v_position);
     vec3 normal = normalize(v_normal);
     normal = gl_FrontFacing ? normal : -normal;
@@ -210,11 +256,17 @@ void main() {
         radiance = mix(mirror, radiance, smoothstep(0.35, 0.9, u_roughness));
     }
 #endif
+#ifdef MEASURE
+    float amount = dot(u_illuminance ? max(irradiance, vec3(0.0)) : radiance * u_filter, kLuminance);
+    vec3 told = in_false_color(amount);
+    o_color = vec4(u_known ? told : unknown(facing), alpha);
+#else
     if (u_unlit_material) {
         o_color = u_linear ? vec4(base.rgb / u_exposure, alpha) : vec4(encode(base.rgb), alpha);
     } else {
         o_color = shown(radiance * u_filter, alpha);
     }
+#endif
 #ifdef CAUSTICS
     // White, and dark within: seen on any light.
     o_color = mix(o_color, vec4(0.1, 0.45, 0.9, 1.0), 0.7 * edge.z);

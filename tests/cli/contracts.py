@@ -366,6 +366,28 @@ class Render(CliTest):
         self.run_cli("render", self.room, "-o", self.path("c.exr"), "--layers", "caustic", "--quality", "draft", "--size", "16x16")
         self.refused("render", self.room, "-o", self.path("n.exr"), "--layers", "nonsense", says=["direct", "diffuse", "caustic"])
 
+    def test_false_colour(self):
+        project = self.path("room.atrium")
+        self.run_cli("solve", self.room, "-o", project, "--quality", "draft")
+        size = ("--size", "32x24")
+        legend = self.path("legend.csv")
+        self.run_cli("render", project, "-o", self.path("a.png"), *size, "--false-colour", "illuminance", "--scale", "linear",
+                     "--range", "0,500", "--contours", "--legend", legend)
+        lines = self.read("legend.csv").split()
+        self.assertEqual(lines[:2] + lines[-1:], ["lux,colour", "0,#440154", "500,#fde725"])
+        self.run_cli("render", project, "-o", self.path("b.png"), *size, "--false-colour", "luminance", "--legend", legend)
+        self.assertTrue(self.read("legend.csv").startswith("cd/m2,colour"))
+        self.run_cli("render", project, "-o", self.path("c.png"), *size)
+        pictures = []
+        for name in ("a.png", "b.png", "c.png"):
+            with open(self.path(name), "rb") as f:
+                pictures.append(f.read())
+        self.assertEqual(len(set(pictures)), 3)
+        self.refused("render", project, "-o", self.path("a.exr"), "--false-colour", "illuminance", says=[".png"])
+        self.refused("render", project, "-o", self.path("a.png"), "--range", "0,500")
+        for wrong in ("500", "500,100", "a,b", "0,100", "1,inf"):
+            self.refused("render", project, "-o", self.path("a.png"), "--false-colour", "illuminance", "--range=" + wrong, says=[wrong])
+
     def test_direct_and_diffuse_add_up(self):
         document = json.loads(self.read("room.gltf"))
         document["nodes"][2]["rotation"] = [0.2588190451, 0.0, 0.0, 0.9659258263]  # 30 degrees up: the lamp is in the picture

@@ -3,6 +3,7 @@
 
 #include "ui/document/document.h"
 #include "ui/tools/snapping.h"
+#include "ui/viewport/light_meter.h"
 #include "ui/viewport/overlay_batch.h"
 #include "ui/viewport/view_scene.h"
 
@@ -28,6 +29,9 @@ public:
     [[nodiscard]] virtual const ViewScene& view_scene() const = 0;
     [[nodiscard]] virtual const Snapping& snapping() const = 0;
     virtual void show_message(const QString& text) = 0;
+    /// The light on the surface under a point; none where there is nothing to be measured.
+    [[nodiscard]] virtual std::optional<MeterReading> read_light(const dvec2& point) const = 0;
+    virtual MeasuringPoints& measuring_points() = 0;
 };
 
 /// UI thread only. A drag lasts from press() to release() or cancel().
@@ -48,6 +52,7 @@ public:
     virtual bool key(int /*key*/, const QString& /*text*/) { return false; }
     /// Mouse moved without a button; true when what draw() shows changed.
     virtual bool hover(const Pointer& /*pointer*/) { return false; }
+    virtual void leave() {} ///< the mouse left the view
     virtual void draw(OverlayBatch& /*batch*/) const {}
 
 protected:

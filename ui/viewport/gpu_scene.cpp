@@ -72,6 +72,10 @@ bool is_metal(const Material& m) {
     const MaterialKind kind = classify(m);
     return kind == MaterialKind::Mirror || kind == MaterialKind::Glossy;
 }
+/// True when a surface has the amount that is shown: illuminance is for what scatters light.
+bool is_known(const Material& m, const FalseColor& scale, bool lit, bool probe) {
+    return lit && !m.unlit && (is_metal(m) ? scale.quantity == LightQuantity::Luminance && probe : true);
+}
 bool is_blended(const Material& m) { return is_glass(m) || m.alpha_mode == Material::Alpha::Blend; }
 
 dmat4 relative_to_eye(const ViewItem& item, const dvec3& eye) {
@@ -93,6 +97,7 @@ bool GpuScene::initialize(Gl& gl) {
     gl.glBindTexture(GL_TEXTURE_2D, white_);
     gl.glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
     gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    make_color_map();
     light_maps_.initialize(gl);
     caustics_.initialize(gl);
     return true;
@@ -126,9 +131,10 @@ void GpuScene::release() {
     forget_awaited();
     forget_landings();
     gl_->glDeleteTextures(1, &white_);
+    gl_->glDeleteTextures(1, &color_map_);
     gl_->glDeleteTextures(1, &probe_.texture);
     gl_->glDeleteTextures(1, &next_probe_.texture);
-    white_ = 0;
+    white_ = color_map_ = 0;
     probe_ = next_probe_ = {};
     surface_ = {};
     mask_.reset();
@@ -178,6 +184,7 @@ bool GpuScene::compile(unsigned variant) {
         defines += (variant & Cut) != 0 ? "#define CUT\n" : "";
         defines += (variant & Mapped) != 0 ? "#define LIGHT_MAP\n" : "";
         defines += (variant & Caustic) != 0 ? "#define CAUSTICS\n" : "";
+        defines += (variant & Measure) != 0 ? "#define MEASURE\n" : "";
         surface_[variant].program = load_program("surface.vert", "surface.frag", defines);
     }
     return surface_[variant].program != nullptr;
@@ -199,6 +206,9 @@ void GpuScene::begin(unsigned variant, const DrawView& from) {
         gl.glUniform1i(p.at("u_caustic_image"), 5);
         gl.glUniform1i(p.at("u_caustic_boxes"), 6);
         gl.glUniform1f(p.at("u_caustic_outline"), caustic_boxes_ ? 1.0F : 0.0F);
+    }
+    if ((variant & Measure) != 0) {
+        set_scale(p, from.line_width);
     }
     gl.glUniform1f(p.at("u_exposure"), from.exposure);
     gl.glUniform4f(p.at("u_clip"), from.clip.x, from.clip.y, from.clip.z, from.clip.w);
@@ -413,6 +423,10 @@ void GpuScene::draw_surface(const ViewItem& item, unsigned variant, const Scene&
     gl.glUniform1f(at("u_alpha_cutoff"), m.alpha_cutoff);
     gl.glUniform1i(at("u_kind"), is_glass(m) ? 2 : (is_metal(m) ? 1 : 0));
     gl.glUniform1f(at("u_roughness"), m.roughness);
+    if ((variant & Measure) != 0) {
+        const bool probe = probe_.texture != 0 && from.use_probe;
+        gl.glUniform1i(at("u_known"), is_known(m, *false_color_, (variant & Headlight) == 0, probe) ? 1 : 0);
+    }
     const float f = (m.ior - 1.0F) / (m.ior + 1.0F);
     gl.glUniform1f(at("u_f0"), f * f);
     gl.glUniform1f(at("u_diffuse_share"), m.metallic + (1.0F - m.metallic) * (1.0F - m.transmission));
@@ -433,6 +447,7 @@ int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& fr
     set_shares(from.shares);
     caustic_boxes_ = from.caustic_boxes && !from.linear;
     texel_grid_ = from.linear ? nullptr : from.texel_grid;
+    false_color_ = from.linear ? nullptr : from.false_color;
 
     const dmat4 view_projection = from.projection * from.rotation;
     struct Visible {
@@ -452,12 +467,17 @@ int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& fr
         if (out_of_sight(item.bvh->bounds(), mvp, from.window)) {
             continue;
         }
-        const unsigned variant = variant_of(item) | (cut == Cutaway::Part::Some ? unsigned(Cut) : 0U);
+        if (false_color_ != nullptr && is_glass(*item.material)) {
+            continue; // a colour over another would stand for an amount that is nowhere
+        }
+        const unsigned variant = variant_of(item) | (cut == Cutaway::Part::Some ? unsigned(Cut) : 0U) |
+                                 (false_color_ != nullptr ? unsigned(Measure) : 0U);
         if (!compile(variant)) {
             continue;
         }
         const dvec3 centre(item.world * dvec4(dvec3(item.bvh->bounds().centre()), 1.0));
-        (is_blended(*item.material) ? blended : opaque).push_back({&item, variant, glm::length(centre - from.eye), mvp});
+        (is_blended(*item.material) && false_color_ == nullptr ? blended : opaque)
+            .push_back({&item, variant, glm::length(centre - from.eye), mvp});
     }
     // Few changes of program, and near things first, so that what they hide is not shaded.
     std::stable_sort(opaque.begin(), opaque.end(), [](const Visible& a, const Visible& b) {
@@ -476,7 +496,8 @@ int GpuScene::draw(const ViewScene& view, const Scene& scene, const DrawView& fr
         }
     };
     draw_all(opaque);
-    if (!from.linear && !from.reflected) {
+    // A mirror has the luminance of what it shows, and no illuminance.
+    if (!from.linear && !from.reflected && (false_color_ == nullptr || false_color_->quantity == LightQuantity::Luminance)) {
         int mirrors = 0;
         for (const Visible& v : opaque) {
             const Geometry& geometry = geometry_of(*v.item);

@@ -1,6 +1,7 @@
 // The view's items on the GPU: uploads what changed, draws what is in sight.
 #pragma once
 
+#include "engine/view/false_color.h"
 #include "ui/viewport/caustic_cache.h"
 #include "ui/viewport/gl.h"
 #include "ui/viewport/light_map_cache.h"
@@ -32,6 +33,8 @@ struct DrawView {
     LightShares shares;                                     ///< of the light to show; what emits belongs to the direct share
     bool caustic_boxes = false;                             ///< outline the caustic textures
     const std::unordered_set<NodeId>* texel_grid = nullptr; ///< draw the caustic texels of these nodes; null = of none
+    const FalseColor* false_color = nullptr;                ///< show amounts of light; null = the picture
+    float line_width = 1.5F;                                ///< of contours, pixels of the target
 };
 
 /// Needs the GL context current in every function but the constructor. UI thread only.
@@ -121,6 +124,8 @@ private:
     void draw_mapped(const ViewItem& item, unsigned variant, const Geometry& geometry, bool has_back);
     void bind_map(Program& program, const std::shared_ptr<const LightMap>& map);
     void bind_caustics(Program& program, const CausticList& list);
+    void make_color_map();
+    void set_scale(Program& program, float line_width); ///< of false colour
     void forget(const Geometry& geometry);
     /// Draws what a flat mirror shows over its surface, through the stencil buffer.
     void draw_mirror(const ViewItem& item, const ViewScene& view, const Scene& scene, const DrawView& from, const mat4& mvp,
@@ -135,7 +140,8 @@ private:
         Cut = 8,
         Mapped = 16,
         Caustic = 32,
-        kVariants = 64
+        Measure = 64,
+        kVariants = 128
     };
     std::array<Program, kVariants> surface_;
     std::unique_ptr<QOpenGLShaderProgram> mask_;
@@ -154,6 +160,8 @@ private:
     bool caustic_boxes_ = false;                             ///< in what is being drawn
     const std::unordered_set<NodeId>* texel_grid_ = nullptr; ///< likewise
     unsigned white_ = 0;
+    unsigned color_map_ = 0;                                                           ///< color_map() as a texture
+    const FalseColor* false_color_ = nullptr;                                          ///< in what is being drawn
     std::shared_ptr<const std::vector<SurfaceLandings>> landings_;                     ///< that points_ are of
     std::unordered_map<const SurfaceLandings*, std::pair<unsigned, unsigned>> points_; ///< vertex array and buffer
     void forget_landings();

@@ -156,4 +156,42 @@ void GpuScene::draw_mapped(const ViewItem& item, unsigned variant, const Geometr
     draw_side(false);
 }
 
+void GpuScene::make_color_map() {
+    Gl& gl = *gl_;
+    std::array<std::uint8_t, 3 * kMapColors> colors{};
+    for (std::size_t i = 0; i < kMapColors; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            colors[3 * i + c] = std::uint8_t(color_map()[i] >> (16U - 8U * c) & 0xFFU);
+        }
+    }
+    color_map_ = new_texture(gl, GL_LINEAR);
+    gl.glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl.glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, GLsizei(kMapColors), 1, 0, GL_RGB, GL_UNSIGNED_BYTE, colors.data());
+    gl.glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+}
+
+void GpuScene::set_scale(Program& p, float line_width) {
+    Gl& gl = *gl_;
+    const FalseColor& scale = *false_color_;
+    const auto end = [&](double value) { return float(scale.logarithmic ? std::log(value) : value); };
+    std::array<float, 24> levels{};
+    std::size_t count = 0;
+    if (scale.contours) {
+        for (const double value : round_values(scale)) {
+            if (value > scale.minimum && count < levels.size()) { // no line around what is dark
+                levels[count++] = float(value);
+            }
+        }
+    }
+    gl.glUniform1i(p.at("u_color_map"), 7);
+    gl.glUniform1i(p.at("u_illuminance"), scale.quantity == LightQuantity::Illuminance ? 1 : 0);
+    gl.glUniform1i(p.at("u_logarithmic"), scale.logarithmic ? 1 : 0);
+    gl.glUniform2f(p.at("u_range"), end(scale.minimum), end(scale.maximum));
+    gl.glUniform1i(p.at("u_level_count"), GLint(count));
+    gl.glUniform1fv(p.at("u_levels"), GLsizei(levels.size()), levels.data());
+    gl.glUniform1f(p.at("u_line"), 0.5F * line_width);
+    gl.glActiveTexture(GL_TEXTURE7);
+    gl.glBindTexture(GL_TEXTURE_2D, color_map_);
+}
+
 } // namespace atrium::ui

@@ -23,12 +23,14 @@ bool PictureRenderer::initialize(Gl& gl) {
                                         std::string_view(renderer).find("softpipe") != std::string_view::npos);
     outline_ = load_program("outline.vert", "outline.frag");
     overlay_ = load_program("overlay.vert", "overlay.frag");
-    if (!gpu_.initialize(gl) || !outline_ || !overlay_) {
+    plate_ = load_program("plate.vert", "plate.frag");
+    if (!gpu_.initialize(gl) || !outline_ || !overlay_ || !plate_) {
         return false;
     }
     gl.glGenVertexArrays(1, &empty_array_);
     gl.glGenVertexArrays(1, &overlay_array_);
     gl.glGenBuffers(1, &overlay_buffer_);
+    plate_texture_ = new_texture(gl, GL_NEAREST);
     gl.glBindVertexArray(overlay_array_);
     gl.glBindBuffer(GL_ARRAY_BUFFER, overlay_buffer_);
     gl.glEnableVertexAttribArray(0);
@@ -53,9 +55,11 @@ void PictureRenderer::release() {
     gl_->glDeleteVertexArrays(1, &empty_array_);
     gl_->glDeleteVertexArrays(1, &overlay_array_);
     gl_->glDeleteBuffers(1, &overlay_buffer_);
-    empty_array_ = overlay_array_ = overlay_buffer_ = 0;
+    gl_->glDeleteTextures(1, &plate_texture_);
+    empty_array_ = overlay_array_ = overlay_buffer_ = plate_texture_ = 0;
     outline_.reset();
     overlay_.reset();
+    plate_.reset();
     gl_ = nullptr;
 }
 
@@ -89,6 +93,7 @@ void PictureRenderer::paint(const FrameInput& in) {
     gl.glBindFramebuffer(GL_FRAMEBUFFER, in.framebuffer);
     gl.glViewport(0, 0, in.width, in.height);
     draw_overlay(in);
+    draw_plates(in);
 }
 
 bool PictureRenderer::step_probe(const ViewScene& view, const Scene& scene, float exposure, const LightShares& shares) {
@@ -116,12 +121,20 @@ void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, i
     gl.glViewport(0, 0, in.width, in.height);
     const Rgb sky = in.scene.environment.sky_radiance;
     // Without a sky the surroundings are a neutral grey, not the black that would be true: one has to find the model.
-    const Rgb ground = max_component(sky) > 0.0F ? display_color(sky, in.exposure) : Rgb(0.27F);
+    const bool lit_sky = max_component(sky) > 0.0F;
+    Rgb ground(0.27F);
+    if (!in.false_color) {
+        ground = lit_sky ? display_color(sky, in.exposure) : ground;
+    } else if (lit_sky && in.shares.direct && in.false_color->quantity == LightQuantity::Luminance) {
+        ground = false_color(*in.false_color, double(luminance(sky)));
+    }
     gl.glClearColor(ground.r, ground.g, ground.b, 1.0F);
     gl.glDepthMask(GL_TRUE);
     gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     DrawView with_background = from;
     with_background.background = ground;
+    with_background.false_color = in.false_color ? &*in.false_color : nullptr;
+    with_background.line_width = 1.5F * float(in.pixel_ratio);
     with_background.caustic_boxes = in.caustic_boxes;
     with_background.texel_grid = in.texel_grid ? &in.selected : nullptr;
     gpu_.begin_frame();
@@ -230,6 +243,36 @@ void PictureRenderer::draw_overlay(const FrameInput& in) {
     gl.glDrawArrays(GL_TRIANGLES, 0, GLsizei(vertices.size()));
     gl.glBindVertexArray(0);
     overlay_->release();
+    gl.glDisable(GL_BLEND);
+}
+
+void PictureRenderer::draw_plates(const FrameInput& in) {
+    if (in.plates.empty()) {
+        return;
+    }
+    Gl& gl = *gl_;
+    gl.glDisable(GL_DEPTH_TEST);
+    gl.glDisable(GL_CULL_FACE);
+    gl.glEnable(GL_BLEND);
+    gl.glBlendFuncSeparate(GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    plate_->bind();
+    plate_->setUniformValue("u_picture", 0);
+    gl.glActiveTexture(GL_TEXTURE0);
+    gl.glBindTexture(GL_TEXTURE_2D, plate_texture_);
+    gl.glBindVertexArray(empty_array_);
+    for (const Plate& plate : in.plates) {
+        // On whole pixels: text stays sharp.
+        const double left = std::round(plate.top_left.x * in.pixel_ratio);
+        const double top = std::round(plate.top_left.y * in.pixel_ratio);
+        const auto x = [&](double pixel) { return float(2.0 * pixel / in.width - 1.0); };
+        const auto y = [&](double pixel) { return float(1.0 - 2.0 * pixel / in.height); };
+        gl.glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, plate.image.width(), plate.image.height(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                        plate.image.constBits());
+        plate_->setUniformValue("u_area", x(left), y(top), x(left + plate.image.width()), y(top + plate.image.height()));
+        gl.glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    }
+    gl.glBindVertexArray(0);
+    plate_->release();
     gl.glDisable(GL_BLEND);
 }
 

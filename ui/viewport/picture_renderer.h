@@ -4,9 +4,19 @@
 #include "ui/viewport/gpu_scene.h"
 #include "ui/viewport/overlay_batch.h"
 
+#include <QImage>
+
+#include <optional>
+#include <span>
 #include <unordered_set>
 
 namespace atrium::ui {
+
+/// A small picture over the view: a legend, a label.
+struct Plate {
+    QImage image;        ///< device pixels, Format_RGBA8888_Premultiplied
+    dvec2 top_left{0.0}; ///< logical pixels from the view's top left corner
+};
 
 /// What paint() needs to know; references are good for the call only.
 struct FrameInput {
@@ -22,9 +32,11 @@ struct FrameInput {
     bool caustic_boxes = false; ///< outline the caustic textures
     bool texel_grid = false;    ///< and the texels of those of the selected nodes
     std::shared_ptr<const std::vector<SurfaceLandings>>
-        landings;        ///< of which those of the selected nodes are drawn; or null
-    bool refine = false; ///< smooth edges where the interactive picture goes without
-    int width = 1;       ///< device pixels
+        landings;                          ///< of which those of the selected nodes are drawn; or null
+    std::optional<FalseColor> false_color; ///< amounts of light instead of the picture
+    std::span<const Plate> plates;         ///< over everything else, in this order
+    bool refine = false;                   ///< smooth edges where the interactive picture goes without
+    int width = 1;                         ///< device pixels
     int height = 1;
     double pixel_ratio = 1.0;
     unsigned framebuffer = 0; ///< to draw into
@@ -67,6 +79,7 @@ private:
     void draw_picture(const FrameInput& in, const DrawView& from, int samples);
     void draw_outlines(const FrameInput& in, const DrawView& from);
     void draw_overlay(const FrameInput& in);
+    void draw_plates(const FrameInput& in);
 
     static constexpr unsigned kProbeFaces = 6;
     Gl* gl_ = nullptr;
@@ -76,6 +89,8 @@ private:
     GlTarget mask_;
     std::unique_ptr<QOpenGLShaderProgram> outline_;
     std::unique_ptr<QOpenGLShaderProgram> overlay_;
+    std::unique_ptr<QOpenGLShaderProgram> plate_;
+    unsigned plate_texture_ = 0;
     unsigned overlay_array_ = 0;
     unsigned overlay_buffer_ = 0;
     unsigned empty_array_ = 0;

@@ -190,7 +190,7 @@ std::optional<PickHit> ViewScene::pick(const Ray& ray, double max_distance, cons
                 normal = -normal;
             }
             nearest = distance;
-            best = PickHit{item.node, item.part, distance, ray.at(distance), normal};
+            best = PickHit{item.node, item.part, distance, ray.at(distance), normal, hit->triangle, hit->front};
             break;
         }
     }

@@ -38,6 +38,8 @@ struct PickHit {
     double distance = 0; ///< metres along the ray
     dvec3 point{0.0};
     dvec3 normal{0.0, 1.0, 0.0}; ///< geometric, unit, towards the ray's origin
+    std::uint32_t triangle = 0;  ///< of the item's mesh
+    bool front = true;           ///< its front side was met
 };
 
 /// What a pick leaves out.

@@ -4,10 +4,13 @@
 #include "engine/view/tone.h"
 #include "ui/document/background.h"
 #include "ui/document/insert_commands.h"
+#include "ui/document/scene_commands.h"
 #include "ui/document/scene_mime.h"
+#include "ui/tools/measure_tool.h"
 #include "ui/tools/place_tool.h"
 #include "ui/tools/surface.h"
 #include "ui/tools/transform_tool.h"
+#include "ui/viewport/legend.h"
 #include "ui/viewport/look_at.h"
 #include "ui/viewport/markers.h"
 #include "ui/viewport/picture_renderer.h"
@@ -33,7 +36,8 @@ namespace {
 constexpr int kRefineAfterMs = 350;
 constexpr int kProbeAfterMs = 150; ///< of rest; then a face at a time
 constexpr int kWalkTickMs = 16;
-constexpr double kPinchSteps = 6.0; ///< dolly steps for a pinch to twice the size
+constexpr double kLegendMargin = 12.0; ///< logical pixels
+constexpr double kPinchSteps = 6.0;    ///< dolly steps for a pinch to twice the size
 
 // Of lamps that are put there, metres.
 constexpr double kBelowCeiling = 0.02;
@@ -61,7 +65,9 @@ struct ViewportWidget::Impl : ToolHost {
     std::shared_ptr<const Solution> solution; ///< shown
     std::shared_ptr<const Solution> awaited;  ///< shown as soon as its light maps are uploaded
 
-    std::array<std::unique_ptr<Tool>, 4> tools;
+    std::array<std::unique_ptr<Tool>, 5> tools;
+    MeasureTool* measure = nullptr; ///< one of them
+    MeasuringPoints points;
     ToolKind tool_kind = ToolKind::Select;
     PlaceTool place_tool{*this};
     Snapping snapping_choice;
@@ -78,6 +84,11 @@ struct ViewportWidget::Impl : ToolHost {
     int document_number = 0; ///< rises with every other document
     bool cut_walls = true;
     LightShares shares;
+    std::optional<FalseColor> false_color;
+    std::vector<Plate> plates;
+    std::optional<FalseColor> legend_of; ///< that legend_image shows
+    QString legend_style;                ///< likewise: font, palette, pixel ratio
+    QImage legend_image;
     bool refine = false;
     bool items_dirty = true;
     bool markers_dirty = true;
@@ -110,6 +121,9 @@ struct ViewportWidget::Impl : ToolHost {
         tools[1] = std::make_unique<MoveTool>(*this);
         tools[2] = std::make_unique<RotateTool>(*this);
         tools[3] = std::make_unique<ScaleTool>(*this);
+        auto measuring = std::make_unique<MeasureTool>(*this);
+        measure = measuring.get();
+        tools[4] = std::move(measuring);
         pending_timer.setSingleShot(true);
         pending_timer.setInterval(0);
         refine_timer.setSingleShot(true);
@@ -219,6 +233,14 @@ struct ViewportWidget::Impl : ToolHost {
         return view.pick(ray);
     }
 
+    [[nodiscard]] std::optional<MeterReading> read_light(const dvec2& point) const override {
+        return solution ? read_along(view, doc.scene(), *solution, controller.ray(point)) : std::nullopt;
+    }
+    MeasuringPoints& measuring_points() override {
+        markers_dirty = true; // what is changed about them is looked at again
+        return points;
+    }
+
     [[nodiscard]] Tool& tool() { return *tools[std::size_t(tool_kind)]; }
     [[nodiscard]] float scale() const { return exposure_scale(mean_radiance, exposure_ev); }
 
@@ -287,6 +309,7 @@ struct ViewportWidget::Impl : ToolHost {
         view.clear();
         place_tool.cancel();
         isolate(std::nullopt);
+        points.clear();
         solution.reset();
         stop_awaiting();
         mean_radiance = 0;
@@ -394,6 +417,7 @@ struct ViewportWidget::Impl : ToolHost {
             if (view.isolated()) {
                 std::erase_if(markers, [this](const Marker& m) { return !view.isolated()->contains(m.node); });
             }
+            points.read(view, doc.scene(), solution);
             markers_dirty = true;
             if (!doc.in_gesture()) {
                 controller.set_scene_bounds(robust_bounds(doc.scene()));
@@ -403,6 +427,66 @@ struct ViewportWidget::Impl : ToolHost {
         if (markers_dirty) {
             markers_dirty = false;
             find_hidden(markers, view, controller);
+            points.look(view, controller);
+        }
+    }
+
+    // ---- words over the picture ----
+    void collect_plates() {
+        plates.clear();
+        const double ratio = widget.devicePixelRatioF();
+        if (false_color) {
+            const QString style =
+                widget.font().key() + QString::number(widget.palette().cacheKey()) + QString::number(ratio);
+            if (legend_of != false_color || legend_style != style) {
+                legend_of = false_color;
+                legend_style = style;
+                legend_image = Legend(*false_color, widget.font(), widget.palette()).image(ratio);
+            }
+            const dvec2 size = dvec2(legend_image.width(), legend_image.height()) / ratio;
+            plates.push_back(
+                {legend_image,
+                 {widget.width() - size.x - kLegendMargin, std::max(kLegendMargin, 0.5 * (widget.height() - size.y))}});
+        }
+        collect_labels(ratio);
+    }
+
+    void draw_points() {
+        for (const MeasuringPoints::Point& point : points.points()) {
+            const auto at = point.reading ? controller.project(point.reading->point) : std::nullopt;
+            if (!at) {
+                continue;
+            }
+            const float alpha = point.hidden ? 0.35F : 1.0F;
+            overlay.disc(*at, 5.5, vec4(0.0F, 0.0F, 0.0F, 0.75F * alpha));
+            overlay.disc(*at, 4.0, vec4(1.0F, 1.0F, 1.0F, alpha));
+            overlay.disc(*at, 2.0, vec4(0.85F, 0.1F, 0.1F, alpha));
+        }
+    }
+    /// Labels beside the points, where they are in sight, and beside the cursor.
+    void collect_labels(double ratio) {
+        const auto label = [&](const QStringList& lines, const dvec2& at, double gap) {
+            const QImage image = label_image(lines, widget.font(), widget.palette(), ratio);
+            const dvec2 size = dvec2(image.width(), image.height()) / ratio;
+            dvec2 place(at.x + gap, at.y - 0.5 * size.y);
+            if (place.x + size.x > widget.width()) {
+                place.x = at.x - gap - size.x;
+            }
+            place = glm::clamp(place, dvec2(0.0), glm::max(dvec2(widget.width(), widget.height()) - size, dvec2(0.0)));
+            plates.push_back({image, place});
+        };
+        for (const MeasuringPoints::Point& point : points.points()) {
+            const auto at = point.reading && !point.hidden ? controller.project(point.reading->point) : std::nullopt;
+            if (at && at->x > 0.0 && at->y > 0.0 && at->x < widget.width() && at->y < widget.height()) {
+                QStringList lines = reading_lines(point.reading->light);
+                lines[0] = QStringLiteral("%1:  %2").arg(point.number).arg(lines[0]);
+                label(lines.mid(0, 2), *at, 10.0);
+            }
+        }
+        if (tool_kind == ToolKind::Measure && measure->cursor() && navigation == Navigation::None && !walking) {
+            if (const auto reading = read_light(*measure->cursor())) {
+                label(reading_lines(reading->light), *measure->cursor(), 18.0);
+            }
         }
     }
 
@@ -436,7 +520,7 @@ struct ViewportWidget::Impl : ToolHost {
             if (tool().hover(pointer)) {
                 widget.update();
             }
-            const auto hit = pick(pointer.position);
+            const auto hit = tool_kind == ToolKind::Measure ? std::nullopt : pick(pointer.position);
             set_hovered(hit ? hit->node : NodeId{});
         }
     }
@@ -577,7 +661,10 @@ void ViewportWidget::set_tool(ToolKind kind) {
         return;
     }
     impl_->cancel();
+    impl_->tool().leave();
     impl_->tool_kind = kind;
+    impl_->set_hovered({});
+    setCursor(kind == ToolKind::Measure ? Qt::CrossCursor : Qt::ArrowCursor);
     update();
     Q_EMIT tool_changed(kind);
 }
@@ -695,6 +782,36 @@ void ViewportWidget::set_light_shares(const LightShares& shares) {
     }
 }
 LightShares ViewportWidget::light_shares() const { return impl_->shares; }
+
+void ViewportWidget::set_false_color(const std::optional<FalseColor>& scale) {
+    const auto valid = scale ? std::optional(valid_scale(*scale)) : scale;
+    if (valid != impl_->false_color) {
+        impl_->false_color = valid;
+        impl_->picture_changed();
+    }
+}
+const std::optional<FalseColor>& ViewportWidget::false_color() const { return impl_->false_color; }
+
+const MeasuringPoints& ViewportWidget::measuring_points() const {
+    impl_->sync();
+    return impl_->points;
+}
+void ViewportWidget::clear_measuring_points() {
+    impl_->points.clear();
+    update();
+}
+bool ViewportWidget::add_measuring_point(const QPointF& point) {
+    const auto reading = light_at(point);
+    if (reading) {
+        impl_->measuring_points().add(impl_->doc.scene(), *reading);
+        update();
+    }
+    return reading.has_value();
+}
+std::optional<MeterReading> ViewportWidget::light_at(const QPointF& point) {
+    impl_->sync();
+    return impl_->read_light(to_vec(point));
+}
 
 ViewCamera ViewportWidget::camera() const {
     ViewCamera out = impl_->controller.camera();
@@ -889,7 +1006,9 @@ void ViewportWidget::paintGL() {
         draw_markers(impl_->overlay, impl_->markers, impl_->controller, selected, impl_->hovered_node);
         impl_->tool().draw(impl_->overlay);
     }
+    impl_->draw_points();
     draw_axes(impl_->overlay, impl_->controller);
+    impl_->collect_plates();
     const double ratio = devicePixelRatioF();
     FrameInput in{impl_->doc.scene(),
                   impl_->view,
@@ -903,6 +1022,8 @@ void ViewportWidget::paintGL() {
                   impl_->caustic_boxes,
                   impl_->texel_grid,
                   impl_->landings && impl_->solution ? impl_->solution->landings : nullptr,
+                  impl_->false_color,
+                  impl_->plates,
                   impl_->refine,
                   std::max(1, int(std::lround(width() * ratio))),
                   std::max(1, int(std::lround(height() * ratio))),
@@ -941,7 +1062,7 @@ void ViewportWidget::mousePressEvent(QMouseEvent* event) {
         }
         impl_->set_hovered({});
     } else if (event->button() == Qt::LeftButton) {
-        if (event->type() == QEvent::MouseButtonDblClick) {
+        if (event->type() == QEvent::MouseButtonDblClick && impl_->tool_kind != ToolKind::Measure) {
             if (const auto hit = impl_->pick(point)) {
                 impl_->doc.selection()->set({hit->node});
                 frame_selection();
@@ -1044,6 +1165,8 @@ bool ViewportWidget::event(QEvent* event) {
     case QEvent::Leave:
         impl_->pending.reset();
         impl_->set_hovered({});
+        impl_->tool().leave();
+        update();
         break;
     case QEvent::NativeGesture: {
         const auto* gesture = static_cast<QNativeGestureEvent*>(event);

@@ -1,21 +1,24 @@
 // The OpenGL viewport: thin. Camera, picking, drawing and tools live in their own classes beside it.
 #pragma once
 
+#include "engine/view/false_color.h"
 #include "engine/view/still.h"
 #include "ui/document/document.h"
 #include "ui/document/engine_link.h"
 #include "ui/document/library.h"
 #include "ui/tools/snapping.h"
+#include "ui/viewport/light_meter.h"
 #include "ui/viewport/light_views.h"
 
 #include <QOpenGLWidget>
 
 #include <memory>
+#include <optional>
 
 namespace atrium::ui {
 
 /// Which tool the left button drives.
-enum class ToolKind : std::uint8_t { Select, Move, Rotate, Scale };
+enum class ToolKind : std::uint8_t { Select, Move, Rotate, Scale, Measure };
 
 /// UI thread only.
 class ViewportWidget : public QOpenGLWidget {
@@ -45,6 +48,16 @@ public:
     void set_cut_walls(bool on); ///< from outside, leave out the walls and the ceiling in front of the room (the default)
     void set_light_shares(const LightShares& shares); ///< what of the light is shown; all by default
     [[nodiscard]] LightShares light_shares() const;
+    /// Amounts of light on this scale, with its legend, instead of the picture; none for the picture.
+    void set_false_color(const std::optional<FalseColor>& scale);
+    [[nodiscard]] const std::optional<FalseColor>& false_color() const;
+    /// What the measuring tool left behind, with readings of the light that is shown. They last as long as the document.
+    [[nodiscard]] const MeasuringPoints& measuring_points() const;
+    void clear_measuring_points();
+    /// Puts one at a point of the view, logical pixels; false where there is nothing to be measured.
+    bool add_measuring_point(const QPointF& point);
+    /// The light under a point of the view, logical pixels; none where there is nothing to be measured.
+    [[nodiscard]] std::optional<MeterReading> light_at(const QPointF& point);
     [[nodiscard]] ViewCamera camera() const; ///< as seen now, for "export picture"
     void set_camera(const ViewCamera& camera);
     /// Point on the floor or nearest surface in the middle of the view: where new objects are placed, world metres.

@@ -4,6 +4,7 @@
 #include "engine/view/tone.h"
 #include "ui/document/background.h"
 #include "ui/panels/number_field.h"
+#include "ui/viewport/legend.h"
 #include "ui/window/settings.h"
 
 #include <QDialogButtonBox>
@@ -15,13 +16,34 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 namespace atrium::ui {
+namespace {
+
+/// Paints the scale's legend at the right edge of a finished picture, as large as in the view.
+void add_legend(Picture& picture, const FalseColor& scale, QFont font) {
+    const double zoom = std::max(picture.height / 800.0, 0.5);
+    const QImage legend = Legend(scale, font, QPalette(Qt::white)).image(zoom);
+    const int left = picture.width - legend.width() - int(12.0 * zoom);
+    const int top = (picture.height - legend.height()) / 2;
+    for (int y = std::max(0, -top); y < legend.height() && top + y < picture.height; ++y) {
+        for (int x = std::max(0, -left); x < legend.width() && left + x < picture.width; ++x) {
+            const QColor ink = legend.pixelColor(x, y);
+            vec3& pixel = picture.pixels[std::size_t(top + y) * std::size_t(picture.width) + std::size_t(left + x)];
+            pixel = glm::mix(pixel, vec3(ink.redF(), ink.greenF(), ink.blueF()), ink.alphaF());
+        }
+    }
+}
+
+} // namespace
 
 ExportPictureDialog::ExportPictureDialog(Scene scene, std::shared_ptr<const Solution> solution, ViewCamera camera,
-                                         float exposure, const LightShares& shares, const QString& suggestion,
-                                         QWidget* parent)
+                                         float exposure, const LightShares& shares, const std::optional<FalseColor>& scale,
+                                         const QString& suggestion, QWidget* parent)
     : QDialog(parent), scene_(std::move(scene)), solution_(std::move(solution)), camera_(std::move(camera)),
-      exposure_(exposure), shares_(shares), suggestion_(suggestion), fraction_(std::make_shared<std::atomic<double>>(0.0)) {
+      exposure_(exposure), shares_(shares), scale_(scale), suggestion_(suggestion),
+      fraction_(std::make_shared<std::atomic<double>>(0.0)) {
     setWindowTitle(tr("Export Picture"));
     auto* layout = new QVBoxLayout(this);
     auto* form = new QFormLayout;
@@ -39,6 +61,9 @@ ExportPictureDialog::ExportPictureDialog(Scene scene, std::shared_ptr<const Solu
     samples_ = number(tr("Samples per pixel side"), 2, 1, 8, {});
     layout->addLayout(form);
     auto* note = new QLabel(tr("PNG is shown as in the view; EXR holds linear values in cd/m\u00b2."));
+    if (scale_) {
+        note->setText(tr("PNG is in false colour as in the view, with its legend; EXR holds linear values in cd/m\u00b2."));
+    }
     if (!(shares_ == LightShares{})) {
         note->setText(note->text() + QLatin1Char('\n') + tr("Light as in the view: only %1.").arg(shares_text(shares_)));
     }
@@ -104,16 +129,21 @@ void ExportPictureDialog::render(const QString& path) {
     poll_.start();
     run_in_background(
         this,
-        [scene = scene_, solution = solution_, camera = camera_, exposure = exposure_, options, context,
-         path]() -> Result<bool> {
-            Picture picture = render_still(scene, *solution, camera, options, context);
+        [scene = scene_, solution = solution_, camera = camera_, exposure = exposure_, scale = scale_, font = font(),
+         options, context, path]() -> Result<bool> {
+            const bool png = path.endsWith(QLatin1StringView(".png"), Qt::CaseInsensitive);
+            const bool amounts = png && scale;
+            Picture picture = amounts ? render_false_color(scene, *solution, camera, options, *scale, context)
+                                      : render_still(scene, *solution, camera, options, context);
             if (context.should_stop()) {
                 return false;
             }
-            if (path.endsWith(QLatin1StringView(".png"), Qt::CaseInsensitive)) {
-                const float scale = exposure_scale(solution->mean_radiance, exposure);
+            if (amounts) {
+                add_legend(picture, *scale, font);
+            } else if (png) {
+                const float factor = exposure_scale(solution->mean_radiance, exposure);
                 for (vec3& pixel : picture.pixels) {
-                    pixel = display_color(pixel, scale);
+                    pixel = display_color(pixel, factor);
                 }
             }
             if (auto done = write_picture(std::filesystem::path(path.toStdU16String()), picture); !done) {

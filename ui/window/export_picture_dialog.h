@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 
 class QLabel;
 class QProgressBar;
@@ -22,8 +23,10 @@ class ExportPictureDialog : public QDialog {
     Q_OBJECT
 public:
     /// `exposure` in stops over automatic exposure, for PNG; EXR is linear cd/m2. `shares` of the light, as in the view.
+    /// With a `scale` PNG is in false colour, with its legend.
     ExportPictureDialog(Scene scene, std::shared_ptr<const Solution> solution, ViewCamera camera, float exposure,
-                        const LightShares& shares, const QString& suggestion, QWidget* parent);
+                        const LightShares& shares, const std::optional<FalseColor>& scale, const QString& suggestion,
+                        QWidget* parent);
     ~ExportPictureDialog() override;
     void render(const QString& path); ///< with the settings shown; closes the dialog when the file is written
 
@@ -37,6 +40,7 @@ private:
     ViewCamera camera_;
     float exposure_;
     LightShares shares_;
+    std::optional<FalseColor> scale_;
     QString suggestion_;
     NumberField* width_ = nullptr;
     NumberField* height_ = nullptr;

@@ -5,6 +5,7 @@
 #include "ui/actions/icons.h"
 #include "ui/panels/caustic_panel.h"
 #include "ui/panels/caustic_places.h"
+#include "ui/panels/convergence_panel.h"
 #include "ui/panels/jobs_panel.h"
 #include "ui/panels/problems_panel.h"
 #include "ui/panels/properties_panel.h"
@@ -12,6 +13,7 @@
 #include "ui/viewport/viewport_widget.h"
 #include "ui/window/daylight_bar.h"
 #include "ui/window/export_picture_dialog.h"
+#include "ui/window/false_color_bar.h"
 #include "ui/window/file_controller.h"
 #include "ui/window/help_dialogs.h"
 #include "ui/window/import_bar.h"
@@ -23,10 +25,12 @@
 #include <array>
 
 #include <QActionGroup>
+#include <QClipboard>
 #include <QCloseEvent>
 #include <QDockWidget>
 #include <QDragEnterEvent>
 #include <QFileInfo>
+#include <QGuiApplication>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
@@ -62,7 +66,8 @@ QString dropped_photometry(const QMimeData* data) { return dropped_file(data, {"
 const std::pair<ActionId, ToolKind> kTools[] = {{ActionId::ToolSelect, ToolKind::Select},
                                                 {ActionId::ToolMove, ToolKind::Move},
                                                 {ActionId::ToolRotate, ToolKind::Rotate},
-                                                {ActionId::ToolScale, ToolKind::Scale}};
+                                                {ActionId::ToolScale, ToolKind::Scale},
+                                                {ActionId::ToolMeasure, ToolKind::Measure}};
 
 const std::pair<ActionId, NewObject> kAdd[] = {{ActionId::AddPolygon, NewObject::Polygon},
                                                {ActionId::AddBox, NewObject::Box},
@@ -110,6 +115,8 @@ MainWindow::MainWindow(const QString& recovery_directory, QWidget* parent) : QMa
     layout->addWidget(import_bar_);
     layout->addWidget(daylight_bar);
     layout->addWidget(pages_, 1);
+    false_color_bar_ = new FalseColorBar(document_, *engine_);
+    layout->addWidget(false_color_bar_);
     setCentralWidget(centre);
 
     make_docks();
@@ -121,6 +128,7 @@ MainWindow::MainWindow(const QString& recovery_directory, QWidget* parent) : QMa
     connect_view();
     connect_editing();
     make_snapping();
+    connect_false_color();
     connect_documents();
 
     resize(1360, 860);
@@ -157,6 +165,13 @@ void MainWindow::on(ActionId id, std::function<void()> slot) {
 
 void MainWindow::say(const QString& text) { statusBar()->showMessage(text, kMessageMs); }
 
+void MainWindow::raise_dock(const char* name) {
+    if (auto* dock = findChild<QDockWidget*>(QLatin1StringView(name))) {
+        dock->show();
+        dock->raise();
+    }
+}
+
 void MainWindow::make_docks() {
     const auto dock = [this](const char* name, const QString& title, QWidget* content, Qt::DockWidgetArea area) {
         auto* widget = new QDockWidget(title, this);
@@ -186,6 +201,11 @@ void MainWindow::make_docks() {
     auto* caustics_dock = dock("dock_caustics", tr("Caustics"), caustics_, Qt::BottomDockWidgetArea);
     resizeDocks({caustics_dock}, {320}, Qt::Vertical);
     caustics_dock->hide();
+    convergence_ = new ConvergencePanel(document_, *engine_);
+    auto* convergence_dock = dock("dock_convergence", tr("Convergence"), convergence_, Qt::BottomDockWidgetArea);
+    tabifyDockWidget(caustics_dock, convergence_dock);
+    convergence_dock->hide();
+    connect(convergence_, &ConvergencePanel::message, this, &MainWindow::say);
     connect(caustics_, &CausticPanel::message, this, &MainWindow::say);
     connect(caustics_, &CausticPanel::activated, this, [this](const CausticRow& row) {
         if (const auto solution = engine_->solution()) {
@@ -266,6 +286,10 @@ void MainWindow::make_menus() {
                                     ActionId::ToolScale,
                                     ActionId::DropToSurface,
                                     gap,
+                                    ActionId::ToolMeasure,
+                                    ActionId::CopyPoints,
+                                    ActionId::RemovePoints,
+                                    gap,
                                     ActionId::Commands});
     fill_snapping_menu(edit->addMenu(tr("Sna&pping")));
     fill(tr("&Add"),
@@ -281,6 +305,11 @@ void MainWindow::make_menus() {
                                     ActionId::ExposureDown,
                                     ActionId::ExposureReset,
                                     gap,
+                                    ActionId::ShowPicture,
+                                    ActionId::ShowIlluminance,
+                                    ActionId::ShowLuminance,
+                                    ActionId::Contours,
+                                    gap,
                                     ActionId::ShowDirect,
                                     ActionId::ShowDiffuse,
                                     ActionId::ShowCaustic,
@@ -288,6 +317,7 @@ void MainWindow::make_menus() {
                                     ActionId::Wireframe,
                                     ActionId::CutWalls,
                                     gap,
+                                    ActionId::Convergence,
                                     ActionId::InspectCaustics,
                                     ActionId::CausticBoxes,
                                     ActionId::TexelGrid,
@@ -358,12 +388,7 @@ void MainWindow::make_status_bar() {
     problems_badge_->setToolTip(tr("Show the problems of this scene"));
     problems_badge_->setAccessibleName(tr("Number of problems"));
     problems_badge_->hide();
-    connect(problems_badge_, &QToolButton::clicked, this, [this] {
-        if (auto* dock = findChild<QDockWidget*>(QStringLiteral("dock_problems"))) {
-            dock->show();
-            dock->raise();
-        }
-    });
+    connect(problems_badge_, &QToolButton::clicked, this, [this] { raise_dock("dock_problems"); });
     snap_badge_ = new QToolButton;
     snap_badge_->setObjectName(QStringLiteral("snap_badge"));
     snap_badge_->setAutoRaise(true);
@@ -501,12 +526,10 @@ void MainWindow::connect_view() {
     }
     (*actions_)[ActionId::CausticsInTextures]->setChecked(true);
     on(ActionId::InspectCaustics, [this] {
-        if (auto* dock = findChild<QDockWidget*>(QStringLiteral("dock_caustics"))) {
-            dock->show();
-            dock->raise();
-            caustics_->focus_table();
-        }
+        raise_dock("dock_caustics");
+        caustics_->focus_table();
     });
+    on(ActionId::Convergence, [this] { raise_dock("dock_convergence"); });
     (*actions_)[ActionId::CutWalls]->setChecked(true);
     connect((*actions_)[ActionId::CutWalls], &QAction::toggled, viewport_, &ViewportWidget::set_cut_walls);
     QAction* direct = (*actions_)[ActionId::ShowDirect];
@@ -528,16 +551,56 @@ void MainWindow::connect_view() {
             }
             const LightShares shares{switches[1]->isChecked(), switches[0]->isChecked(), switches[2]->isChecked()};
             viewport_->set_light_shares(shares);
+            false_color_bar_->set_shares(shares);
             Settings().set_light_shares(shares);
             say(shares == LightShares{} ? tr("All light is shown.") : tr("Shown: only %1.").arg(shares_text(shares)));
         });
     }
     connect(viewport_, &ViewportWidget::message, this, &MainWindow::say);
+    on(ActionId::CopyPoints, [this] {
+        const auto& points = viewport_->measuring_points().points();
+        if (points.empty()) {
+            say(tr("There are no measuring points yet: choose Measure Light and click on a surface."));
+            return;
+        }
+        QGuiApplication::clipboard()->setText(QString::fromStdString(viewport_->measuring_points().csv()));
+        say(tr("%n measuring point(s) copied.", nullptr, int(points.size())));
+    });
+    on(ActionId::RemovePoints, [this] { viewport_->clear_measuring_points(); });
     on(ActionId::StopLight, [this] { engine_->cancel(); });
     on(ActionId::ResumeLight, [this] { engine_->resume(); });
     on(ActionId::Shortcuts, [this] { show_shortcut_list(this); });
     on(ActionId::About, [this] { show_about_box(this); });
     on(ActionId::Commands, [this] { show_command_search(*actions_, this); });
+}
+
+void MainWindow::connect_false_color() {
+    connect(false_color_bar_, &FalseColorBar::changed, this,
+            [this] { viewport_->set_false_color(false_color_bar_->scale()); });
+    connect(false_color_bar_, &FalseColorBar::message, this, &MainWindow::say);
+    const Settings settings;
+    auto* group = new QActionGroup(this);
+    const std::array<std::pair<ActionId, std::optional<LightQuantity>>, 3> views{
+        {{ActionId::ShowPicture, std::nullopt},
+         {ActionId::ShowIlluminance, LightQuantity::Illuminance},
+         {ActionId::ShowLuminance, LightQuantity::Luminance}}};
+    for (const auto& [id, quantity] : views) {
+        group->addAction((*actions_)[id]);
+        (*actions_)[id]->setChecked(settings.false_color() == quantity);
+        on(id, [this, shown = quantity] {
+            false_color_bar_->set_quantity(shown);
+            update_actions();
+        });
+    }
+    QAction* contours = (*actions_)[ActionId::Contours];
+    contours->setChecked(settings.contours());
+    connect(contours, &QAction::toggled, this, [this](bool on) {
+        Settings().set_contours(on);
+        false_color_bar_->set_contours(on);
+    });
+    false_color_bar_->set_shares(viewport_->light_shares());
+    false_color_bar_->set_contours(settings.contours());
+    false_color_bar_->set_quantity(settings.false_color());
 }
 
 void MainWindow::connect_documents() {
@@ -574,6 +637,7 @@ void MainWindow::update_actions() {
         (*actions_)[id]->setEnabled(selected);
     }
     (*actions_)[ActionId::Hide]->setEnabled(selected && !walking);
+    (*actions_)[ActionId::Contours]->setEnabled(false_color_bar_->quantity() && !walking);
     const bool solving = engine_->status().state == SessionStatus::State::Solving;
     (*actions_)[ActionId::StopLight]->setEnabled(solving);
     (*actions_)[ActionId::ResumeLight]->setEnabled(!solving && engine_->stale());
@@ -608,7 +672,7 @@ void MainWindow::export_picture() {
     const Settings settings;
     const QString base = document_.path().isEmpty() ? tr("Untitled") : QFileInfo(document_.path()).completeBaseName();
     auto* dialog = new ExportPictureDialog(document_.scene(), solution, viewport_->camera(), viewport_->exposure(),
-                                           viewport_->light_shares(),
+                                           viewport_->light_shares(), viewport_->false_color(),
                                            settings.last_folder() + QLatin1Char('/') + base + QStringLiteral(".png"), this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &ExportPictureDialog::message, this, &MainWindow::say);

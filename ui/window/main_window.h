@@ -20,7 +20,9 @@ namespace atrium::ui {
 
 class Actions;
 class CausticPanel;
+class ConvergencePanel;
 class EditController;
+class FalseColorBar;
 class FileController;
 class ImportBar;
 class LibraryPanel;
@@ -47,6 +49,8 @@ public:
     [[nodiscard]] LibraryPanel& library() { return *library_; }
     [[nodiscard]] PhotometryController& photometry() { return *photometry_; }
     [[nodiscard]] CausticPanel& caustics() { return *caustics_; }
+    [[nodiscard]] FalseColorBar& false_color_bar() { return *false_color_bar_; }
+    [[nodiscard]] ConvergencePanel& convergence() { return *convergence_; }
     [[nodiscard]] Recovery& recovery() { return *recovery_; }
     [[nodiscard]] QAction* action(ActionId id) const;
 
@@ -60,6 +64,7 @@ protected:
     void changeEvent(QEvent* event) override;
 
 private:
+    void raise_dock(const char* name);
     void make_docks();
     void make_menus();
     void make_tool_bar();
@@ -74,6 +79,7 @@ private:
     void look_through(NodeId camera);
     void step_camera(int step);
     void connect_editing();
+    void connect_false_color();
     void connect_documents();
     void update_title();
     void update_actions();
@@ -95,6 +101,7 @@ private:
     ViewportWidget* viewport_ = nullptr;
     StartPage* start_ = nullptr;
     ImportBar* import_bar_ = nullptr;
+    FalseColorBar* false_color_bar_ = nullptr;
     QStackedWidget* pages_ = nullptr;
     SceneTreePanel* tree_ = nullptr;
     PropertiesPanel* properties_ = nullptr;
@@ -102,6 +109,7 @@ private:
     QToolButton* snap_badge_ = nullptr;
     NodeId camera_; ///< looked through last
     CausticPanel* caustics_ = nullptr;
+    ConvergencePanel* convergence_ = nullptr;
     QMenu* recent_menu_ = nullptr;
     QMenu* docks_menu_ = nullptr;
     QLabel* busy_text_ = nullptr;

@@ -24,6 +24,12 @@ constexpr const char* kSnapAngle = "snap/angle_degrees";
 const QString kSnapSurfaces = QStringLiteral("snap/slide_on_surfaces");
 const QString kSnapTurn = QStringLiteral("snap/turn_to_surface");
 const QString kFurniture = QStringLiteral("library/furniture_folder");
+const QString kFalseColor = QStringLiteral("view/false_colour");
+const QString kContours = QStringLiteral("view/contours");
+
+QString quantity_key(LightQuantity quantity) {
+    return quantity == LightQuantity::Illuminance ? QStringLiteral("illuminance") : QStringLiteral("luminance");
+}
 } // namespace
 
 QString shares_text(const LightShares& shares) {
@@ -123,5 +129,41 @@ void Settings::set_snapping(const Snapping& snapping) {
 
 QString Settings::furniture_folder() const { return QSettings().value(kFurniture).toString(); }
 void Settings::set_furniture_folder(const QString& folder) { QSettings().setValue(kFurniture, folder); }
+std::optional<LightQuantity> Settings::false_color() const {
+    const QString name = QSettings().value(kFalseColor).toString();
+    for (const LightQuantity quantity : {LightQuantity::Illuminance, LightQuantity::Luminance}) {
+        if (name == quantity_key(quantity)) {
+            return quantity;
+        }
+    }
+    return std::nullopt;
+}
+
+void Settings::set_false_color(std::optional<LightQuantity> quantity) {
+    QSettings().setValue(kFalseColor, quantity ? quantity_key(*quantity) : QString());
+}
+
+ScaleChoice Settings::scale_choice(LightQuantity quantity) const {
+    QSettings settings;
+    settings.beginGroup(QStringLiteral("view/scale_") + quantity_key(quantity));
+    ScaleChoice out;
+    out.logarithmic = settings.value(QStringLiteral("logarithmic"), out.logarithmic).toBool();
+    out.automatic = settings.value(QStringLiteral("automatic"), out.automatic).toBool();
+    out.minimum = settings.value(QStringLiteral("minimum"), out.minimum).toDouble();
+    out.maximum = settings.value(QStringLiteral("maximum"), out.maximum).toDouble();
+    return out;
+}
+
+void Settings::set_scale_choice(LightQuantity quantity, const ScaleChoice& choice) {
+    QSettings settings;
+    settings.beginGroup(QStringLiteral("view/scale_") + quantity_key(quantity));
+    settings.setValue(QStringLiteral("logarithmic"), choice.logarithmic);
+    settings.setValue(QStringLiteral("automatic"), choice.automatic);
+    settings.setValue(QStringLiteral("minimum"), choice.minimum);
+    settings.setValue(QStringLiteral("maximum"), choice.maximum);
+}
+
+bool Settings::contours() const { return QSettings().value(kContours, false).toBool(); }
+void Settings::set_contours(bool on) { QSettings().setValue(kContours, on); }
 
 } // namespace atrium::ui

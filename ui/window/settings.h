@@ -2,16 +2,27 @@
 #pragma once
 
 #include "engine/layers/surface_layer.h"
+#include "engine/view/false_color.h"
 #include "ui/tools/snapping.h"
 
 #include <QByteArray>
 #include <QString>
 #include <QStringList>
 
+#include <optional>
+
 namespace atrium::ui {
 
 /// The shares by name, as "direct light, caustics".
 QString shares_text(const LightShares& shares);
+
+/// How one quantity of light is turned into colours.
+struct ScaleChoice {
+    bool logarithmic = true; ///< sun and shade, and 100-200-300-500 lx, are told apart on the same scale
+    bool automatic = true;   ///< the range follows the scene's light
+    double minimum = 0;      ///< of a range set by hand, lux or cd/m2
+    double maximum = 500;
+};
 
 /// Thin face of QSettings. UI thread only.
 class Settings {
@@ -32,6 +43,12 @@ public:
     void set_snapping(const Snapping& snapping);
     [[nodiscard]] QString furniture_folder() const; ///< of the library; empty = none chosen
     void set_furniture_folder(const QString& folder);
+    [[nodiscard]] std::optional<LightQuantity> false_color() const; ///< none: the picture
+    void set_false_color(std::optional<LightQuantity> quantity);
+    [[nodiscard]] ScaleChoice scale_choice(LightQuantity quantity) const;
+    void set_scale_choice(LightQuantity quantity, const ScaleChoice& choice);
+    [[nodiscard]] bool contours() const;
+    void set_contours(bool on);
 };
 
 } // namespace atrium::ui
