@@ -22,7 +22,8 @@
 
 namespace {
 
-/// Saves a picture of the window once the light is up to date, or after `limit_ms`; then ends the program.
+/// Saves a picture of the window once the light is up to date and its error known, or after `limit_ms`; then ends the
+/// program.
 class Screenshot : public QObject {
 public:
     /// `points` to be measured, in shares of the view's width and height.
@@ -30,8 +31,14 @@ public:
         : QObject(&window), window_(window), file_(std::move(file)), points_(std::move(points)) {
         connect(&window_.engine(), &atrium::ui::EngineLink::status_changed, this, [this] {
             const auto solution = window_.engine().solution();
-            if (solution && solution->final && !window_.engine().stale()) {
+            if (!solution || !solution->final || window_.engine().stale()) {
+                return;
+            }
+            if (solution->statistics.audit.points > 0) {
                 take_soon();
+            } else if (!complete_) { // the error follows, but in scenes where nothing can be compared
+                complete_ = true;
+                QTimer::singleShot(15'000, this, [this] { take_soon(); });
             }
         });
         QTimer::singleShot(limit_ms, this, [this] { take(); });
@@ -66,6 +73,7 @@ private:
     atrium::ui::MainWindow& window_;
     QString file_;
     QList<QPointF> points_;
+    bool complete_ = false;
     bool soon_ = false;
     bool taken_ = false;
 };

@@ -31,7 +31,8 @@ LightReading read_light(const Scene& scene, const Solution& solution, const Surf
     LightReading out;
     out.irradiance = irradiance_at(layer, corners, weight, back);
     out.illuminance = double(luminance(out.irradiance));
-    out.standard_error = out.illuminance * solution.statistics.error_estimate;
+    const Statistics& s = solution.statistics;
+    out.standard_error = s.audit.points > 0 ? out.illuminance * s.error_estimate : 0.0;
     out.diffuse = share(true, false, false);
     out.direct = share(false, true, false);
     out.caustic = share(false, false, true);

@@ -11,7 +11,7 @@ namespace atrium {
 struct LightReading {
     Rgb irradiance{0.0F};
     double illuminance = 0;
-    double standard_error = 0; ///< of the illuminance, as `atrium-cli measure` states it
+    double standard_error = 0; ///< of the illuminance, as `atrium-cli measure` states it; 0 = not measured yet
     double direct = 0;         ///< shares of the illuminance: straight from lamps, sun and sky,
     double diffuse = 0;        ///< from other surfaces,
     double caustic = 0;        ///< over mirrors, metals and glass

@@ -19,6 +19,8 @@ using Clock = RunContext::Clock;
 
 // Progress may be reported far more often than anybody can look at it.
 constexpr std::chrono::milliseconds kWakeInterval{33};
+// A first picture that came sooner gets no number: the complete one follows at once.
+constexpr std::chrono::milliseconds kWorthALook{1500};
 
 double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
@@ -178,7 +180,10 @@ struct EngineSession::Impl {
         options.skip_first_picture = good_on_show;
         options.keep_landings = landings;
         try {
-            auto result = solve(scene, options, context, [&](const Picture& picture) { on_snapshot(picture); });
+            auto result = solve(scene, options, context, [&](const Picture& picture) {
+                on_snapshot(picture);
+                look_at_first(picture, stop);
+            });
             if (!result) {
                 const Outcome failed = kind == QualityScheduler::Kind::Full ? Outcome::Failed : Outcome::Unfit;
                 return {stop.stop_requested() ? Outcome::Stopped : failed, nullptr, result.error().message()};
@@ -211,6 +216,20 @@ struct EngineSession::Impl {
         if (news) {
             last_wake = now;
             tell();
+        }
+    }
+
+    /// A first, coarse picture gets its number too, where it took so long that the look hardly adds to it.
+    void look_at_first(const Picture& picture, const StopFlag& stop) {
+        if (!audit || picture == nullptr || picture->final || Clock::now() - started < kWorthALook) {
+            return;
+        }
+        RunContext context;
+        context.stop = stop;
+        SolveOptions options = options_of_scene();
+        options.quality = SolverSettings::Quality::Draft; // few places, few paths
+        if (const Picture known = audit(scene, picture, options, context); known != picture) {
+            on_snapshot(known);
         }
     }
 
