@@ -33,7 +33,7 @@ POINTS = "x,y,z,nx,ny,nz\n2,0,1.5,0,1,0\n0.5,0,0.5,0,1,0\n2,1.2,0,0,0,1\n"
 class Requests(CliTest):
     def test_help_and_version(self):
         self.assertIn("solve", self.run_cli("--help").stdout)
-        self.assertRegex(self.run_cli("--version").stdout, r"^atrium-cli \d+\.\d+\.\d+( \([0-9a-f]{12}\))?\n$")
+        self.assertRegex(self.run_cli("--version").stdout, r"^atrium-cli \d+\.\d+\.\d+( \([0-9a-f]{12}(, modified)?\))?\n$")
         for name in ("info", "check", "solve", "measure", "render", "edit", "reference", "bench", "compare", "convert"):
             self.assertIn("FILE" if name not in ("compare", "convert") else name, self.run_cli(name, "--help").stdout)
 
