@@ -35,7 +35,8 @@ bool good_enough(const Solution& stored, const SolveArguments& arguments) {
     if (arguments.mode && *arguments.mode != stored.statistics.mode) {
         return false;
     }
-    return !arguments.error || stored.statistics.error_estimate <= *arguments.error;
+    const Statistics& s = stored.statistics; // an error that was never measured is none to rely on
+    return !arguments.error || (s.audit.points > 0 && s.error_estimate <= *arguments.error);
 }
 
 /// Measures the error of light just made. What was stopped gets a quick look: the time is over.
@@ -151,10 +152,16 @@ tl::expected<Solved, int> open_scene(const std::string& file, const SolveArgumen
 }
 
 int light_up(Solved& solved, const SolveArguments& arguments, bool need_engine, const SnapshotWatcher& watcher) {
+    const RunContext context = context_for(arguments);
     if (solved.from_file && !need_engine) {
+        if (solved.solution->statistics.audit.points == 0) { // of an older project
+            SolveOptions options;
+            set_options(options, solved.scene, arguments);
+            solved.solution = look_at_error(solved, solved.solution, options, arguments, context);
+            finish_progress();
+        }
         return kDone;
     }
-    const RunContext context = context_for(arguments);
     std::function<void(std::shared_ptr<const Solution>)> on_snapshot;
     if (watcher) {
         on_snapshot = [&watcher](const std::shared_ptr<const Solution>& s) { watcher(s, seconds_since_start()); };

@@ -25,8 +25,11 @@ class Measuring : public WindowTest {
 protected:
     void open_lit() {
         open_sample();
-        ASSERT_TRUE(
-            QTest::qWaitFor([&] { return window->engine().solution() && window->engine().solution()->final; }, 60000));
+        const auto complete = [&] { // with its error
+            const auto light = window->engine().solution();
+            return light && light->final && light->statistics.audit.points > 0;
+        };
+        ASSERT_TRUE(QTest::qWaitFor(complete, 60000));
         settle();
     }
     [[nodiscard]] std::optional<FalseColor> shown() { return window->viewport().false_color(); }

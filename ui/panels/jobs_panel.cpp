@@ -28,7 +28,7 @@ QString seconds_text(double seconds) {
 }
 
 QString percent_text(double share) {
-    return QObject::tr("%1 %").arg(QString::fromStdString(format_number(share * 100, share < 0.1 ? 2 : 0)));
+    return QObject::tr("%1 %").arg(QString::fromStdString(format_number(share * 100, share < 0.1 ? 1 : 0)));
 }
 
 QString phase_text(const std::string& phase) {

@@ -10,6 +10,7 @@
 #include <QFileInfo>
 #include <QIcon>
 #include <QPixmap>
+#include <QRegularExpression>
 
 #include <algorithm>
 
@@ -68,7 +69,8 @@ LibraryModel::LibraryModel(QObject* parent) : QStandardItemModel(parent) {
 }
 
 void LibraryModel::add(std::shared_ptr<LibraryItem> item) {
-    auto* row = new QStandardItem(item->name);
+    static const QRegularExpression before_unit(QStringLiteral("(\\d) (?=(lm|K)\\b)"));
+    auto* row = new QStandardItem(QString(item->name).replace(before_unit, QStringLiteral("\\1\u00a0"))); // not torn apart
     row->setEditable(false);
     row->setDragEnabled(true);
     row->setDropEnabled(false);

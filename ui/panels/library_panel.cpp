@@ -10,6 +10,7 @@
 #include <QListView>
 #include <QMimeData>
 #include <QPushButton>
+#include <QStyledItemDelegate>
 #include <QTabBar>
 #include <QVBoxLayout>
 
@@ -18,6 +19,15 @@ namespace {
 
 constexpr QSize kCell(104, 128);
 constexpr int kDragPicture = 28; ///< points; the object itself is seen in the view
+
+/// Lets a name have all of its cell: three lines, where by itself it would be cut after two.
+class CellDelegate : public QStyledItemDelegate {
+public:
+    using QStyledItemDelegate::QStyledItemDelegate;
+    [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& /*option*/, const QModelIndex& /*index*/) const override {
+        return kCell - QSize(4, 4);
+    }
+};
 
 /// A list whose drags show a small picture beside the cursor: a large one would hide the place.
 class LibraryView : public QListView {
@@ -75,6 +85,7 @@ LibraryPanel::LibraryPanel(QWidget* parent) : QWidget(parent) {
     view_->setUniformItemSizes(true);
     view_->setIconSize({LibraryModel::kPictureSize, LibraryModel::kPictureSize});
     view_->setGridSize(kCell);
+    view_->setItemDelegate(new CellDelegate(view_));
     view_->setWordWrap(true);
     view_->setDragEnabled(true);
     view_->setDragDropMode(QAbstractItemView::DragOnly);
