@@ -90,7 +90,7 @@ struct ScriptPlayer::Impl {
             }
         }
         if (let_go && !settled && picture != nullptr && status.shown_revision >= status.posted_revision && !status.moving &&
-            !status.settling && !picture->statistics.update.degraded) {
+            !status.settling && !picture->statistics.update.degraded && (picture->final || status.refining)) {
             settled = seconds(now - *let_go);
             settled_light = picture->final ? nullptr : picture;
         }
