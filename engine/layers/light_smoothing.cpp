@@ -7,9 +7,11 @@ namespace atrium {
 
 void fill_covered(NodeMesh& mesh, bool LightVertex::*covered, DirectSample LightVertex::*sample) {
     std::vector<std::uint32_t> open;
+    std::vector<std::uint8_t> empty(mesh.vertices.size(), 0); // still to be filled
     for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
         if (mesh.vertices[v].*covered) {
             open.push_back(v);
+            empty[v] = 1;
         }
     }
     std::vector<Rgb> sum(open.empty() ? 0 : mesh.vertices.size());
@@ -21,7 +23,7 @@ void fill_covered(NodeMesh& mesh, bool LightVertex::*covered, DirectSample Light
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t to = t.v[k];
                 for (const std::uint32_t from : {t.v[(k + 1) % 3], t.v[(k + 2) % 3]}) {
-                    if (mesh.vertices[to].*covered && !(mesh.vertices[from].*covered)) {
+                    if (empty[to] != 0 && empty[from] == 0) {
                         sum[to] += (mesh.vertices[from].*sample).irradiance;
                         count[to] += 1.0F;
                     }
@@ -32,7 +34,7 @@ void fill_covered(NodeMesh& mesh, bool LightVertex::*covered, DirectSample Light
         for (const std::uint32_t v : open) {
             if (count[v] > 0.0F) {
                 (mesh.vertices[v].*sample).irradiance = sum[v] / count[v];
-                mesh.vertices[v].*covered = false;
+                empty[v] = 0;
             } else {
                 left.push_back(v);
             }
