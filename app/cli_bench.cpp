@@ -271,8 +271,8 @@ int paper_suite(const Arguments& a, const std::vector<std::string>& files) {
                             percent(e->settled_where_changed), percent(e->stayed)});
             }
         }
-        const double settle = found->mean_settle_seconds();
-        const double fresh = found->mean_fresh_seconds();
+        const double settle = found->mean_of(&FrameError::settle_seconds);
+        const double fresh = found->mean_of(&FrameError::fresh_seconds);
         const double frame = found->frame_seconds(0.5);
         table.add({name, fmt::format("ours, {}, {} threads", a.quality, found->solved.threads), fmt::format("{:.2f}", fresh),
                    fmt::format("{}", found->solved.particles_emitted), octree > 0 ? bytes(double(octree)) : "not built",

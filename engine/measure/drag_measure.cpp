@@ -53,8 +53,6 @@ Result<FrameError> frame_error(GiEngine& engine, const Scene& scene, const Solut
     if (!settled) {
         return tl::unexpected(settled.error());
     }
-    out.settle = (*settled)->statistics.update;
-    out.settle_rays = (*settled)->statistics.rays;
     GiEngine other;
     SolveOptions anew = truth.options;
     anew.keep_for_updates = false;
@@ -98,24 +96,12 @@ double DragMeasurement::frame_seconds(double share) const {
     return seconds.empty() ? 0.0 : seconds[std::min(seconds.size() - 1, std::size_t(share * double(seconds.size())))];
 }
 
-double DragMeasurement::mean_settle_seconds() const {
+double DragMeasurement::mean_of(double FrameError::*seconds) const {
     double sum = 0.0;
     double count = 0.0;
     for (const DragFrame& frame : frames) {
         if (frame.error) {
-            sum += frame.error->settle_seconds;
-            count += 1.0;
-        }
-    }
-    return count > 0.0 ? sum / count : 0.0;
-}
-
-double DragMeasurement::mean_fresh_seconds() const {
-    double sum = 0.0;
-    double count = 0.0;
-    for (const DragFrame& frame : frames) {
-        if (frame.error) {
-            sum += frame.error->fresh_seconds;
+            sum += (*frame.error).*seconds;
             count += 1.0;
         }
     }

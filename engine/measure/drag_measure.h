@@ -20,8 +20,6 @@ struct FrameError {
     double changed_share = 0;  ///< of all places
     double fresh_seconds = 0;  ///< what the new solution took
     double settle_seconds = 0; ///< what the exact update took
-    UpdateStatistics settle;   ///< of the exact update
-    std::uint64_t settle_rays = 0;
 };
 
 struct DragFrame {
@@ -37,8 +35,8 @@ struct DragMeasurement {
     std::vector<DragFrame> frames;
     /// Of the hurried updates' times, the one that `share` of all are below.
     [[nodiscard]] double frame_seconds(double share) const;
-    [[nodiscard]] double mean_settle_seconds() const;
-    [[nodiscard]] double mean_fresh_seconds() const;
+    /// Mean over the frames that were looked at.
+    [[nodiscard]] double mean_of(double FrameError::*seconds) const;
 };
 
 /// Solves, drags `node` through `positions` (in its parent's space) and takes the error at `checks` frames spread over the

@@ -1,8 +1,7 @@
 #include "engine/measure/error_audit.h"
 
 #include "engine/base/rng.h"
-#include "engine/raycast/ray_scene.h"
-#include "engine/reference/lit_places.h"
+#include "engine/measure/light_difference.h"
 #include "engine/reference/reference.h"
 #include "engine/solver/gi_engine.h"
 
@@ -13,7 +12,6 @@
 namespace atrium {
 namespace {
 
-constexpr float kSeen = 0.1F;       // of what a place sees must be farther than 5 cm: LitPlace::open
 constexpr double kDark = 0.05;      // of the mean: darker places count as that bright
 constexpr double kNoiseShare = 0.1; // of the error's square that noise may stand for
 constexpr int kResamples = 400;
@@ -101,17 +99,10 @@ AuditSettings audit_settings(SolverSettings::Quality quality) {
 Result<ErrorAudit> audit_error(const Scene& scene, const Solution& solution, const AuditSettings& settings,
                                const RunContext& context) {
     const auto start = RunContext::Clock::now();
-    std::vector<SensorPlace> places;
+    const std::vector<SensorPlace> places = seen_places(scene, settings.points, 0xAD17U + settings.seed);
     std::vector<ReferencePoint> points;
-    {
-        const RayScene rays(scene);
-        const PathTracer tracer(scene, rays);
-        for (const LitPlace& place : lit_places(rays, tracer, settings.points, 0xAD17U + settings.seed)) {
-            if (place.open >= kSeen) {
-                places.push_back({place.position, place.normal});
-                points.push_back({place.position, place.normal});
-            }
-        }
+    for (const SensorPlace& place : places) {
+        points.push_back({place.point, place.normal});
     }
     const auto nothing = [] {
         return fail("", "", "there is nothing to compare: light reaches no surface that scatters it",

@@ -81,13 +81,12 @@ std::vector<SensorPlace> spread_places(const Scene& scene, const Solution& solut
     return out;
 }
 
-std::vector<SensorPlace> seen_places(const Scene& scene, std::size_t count) {
-    constexpr float kSeen = 0.1F;
+std::vector<SensorPlace> seen_places(const Scene& scene, std::size_t count, std::uint32_t seed) {
     const RayScene rays(scene);
     const PathTracer tracer(scene, rays);
     std::vector<SensorPlace> out;
-    for (const LitPlace& place : lit_places(rays, tracer, count, 0x5EE7U)) {
-        if (place.open >= kSeen) {
+    for (const LitPlace& place : lit_places(rays, tracer, count, seed)) {
+        if (place.seen()) {
             out.push_back({place.position, place.normal});
         }
     }

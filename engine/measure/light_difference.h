@@ -14,9 +14,9 @@ namespace atrium {
 std::vector<SensorPlace> spread_places(const Scene& scene, const Solution& solution, std::size_t count);
 
 /// About `count` places that light can reach and that one can look at, evenly by area, the same ones every time: inside of
-/// solids and in gaps (LitPlace::open) nobody cares for light, and two solutions may differ there by as much as they like.
-/// Empty where the scene has no light.
-std::vector<SensorPlace> seen_places(const Scene& scene, std::size_t count);
+/// solids and in gaps (LitPlace::seen()) nobody cares for light, and two solutions may differ there by as much as they like.
+/// Empty where the scene has no light. Another `seed` gives other places.
+std::vector<SensorPlace> seen_places(const Scene& scene, std::size_t count, std::uint32_t seed = 0x5EE7U);
 
 /// Figures over all three channels, as in `difference()`.
 struct LightDifference {

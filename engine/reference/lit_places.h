@@ -16,6 +16,7 @@ struct LitPlace {
     /// Share of what it sees that is farther than 5 cm (in a room with a diagonal of 10 m, else in proportion), weighted by
     /// the cosine: small in gaps, such as between books or behind a lamp on the ceiling, into which nobody looks.
     float open = 1.0F;
+    [[nodiscard]] bool seen() const { return open >= 0.1F; }
 };
 
 /// Up to `count` random places, evenly by area over both sides where both have light; the same ones for the same scene,

@@ -130,7 +130,7 @@ struct EngineSession::Impl {
         const Picture complete = latest;
         lock.unlock();
         tell();
-        Ended ended = kind == QualityScheduler::Kind::Audit ? audit_guarded(stop, complete)
+        Ended ended = kind == QualityScheduler::Kind::Audit ? audit_guarded(stop, complete, scene.settings.quality)
                                                             : solve_guarded(stop, kind, good_on_show, landings);
         const bool updatable = ended.picture && ended.picture->updatable;
         lock.lock();
@@ -155,15 +155,17 @@ struct EngineSession::Impl {
     }
 
     /// The number beside the light. That it could not be had is no failure: the light stands.
-    Ended audit_guarded(const StopFlag& stop, const Picture& complete) {
+    Ended audit_guarded(const StopFlag& stop, const Picture& light, SolverSettings::Quality quality) {
         RunContext context;
         context.stop = stop;
+        SolveOptions options = options_of_scene();
+        options.quality = quality;
         try {
-            Picture out = audit(scene, complete, options_of_scene(), context);
+            Picture out = audit(scene, light, options, context);
             return {stop.stop_requested() ? QualityScheduler::Outcome::Stopped : QualityScheduler::Outcome::Audited,
                     std::move(out),
                     {}};
-        } catch (const std::exception&) {
+        } catch (...) {
             return {QualityScheduler::Outcome::Stopped, nullptr, {}};
         }
     }
@@ -224,12 +226,9 @@ struct EngineSession::Impl {
         if (!audit || picture == nullptr || picture->final || Clock::now() - started < kWorthALook) {
             return;
         }
-        RunContext context;
-        context.stop = stop;
-        SolveOptions options = options_of_scene();
-        options.quality = SolverSettings::Quality::Draft; // few places, few paths
-        if (const Picture known = audit(scene, picture, options, context); known != picture) {
-            on_snapshot(known);
+        const Ended known = audit_guarded(stop, picture, SolverSettings::Quality::Draft); // few places, few paths
+        if (known.picture != nullptr && known.picture != picture) {
+            on_snapshot(known.picture);
         }
     }
 

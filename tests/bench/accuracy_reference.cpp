@@ -36,7 +36,7 @@ std::vector<Probe> pick_probes(const Scene& scene, std::size_t count) {
         Probe probe;
         probe.place = {place.position, place.normal};
         probe.node = csv_name(scene, place.node);
-        probe.open = place.open;
+        probe.seen = place.seen();
         out.push_back(probe);
     }
     return out;
@@ -73,13 +73,13 @@ std::uint64_t hash_scene(const fs::path& path) {
 }
 
 std::string to_csv(const Reference& reference) {
-    std::string out = "x,y,z,nx,ny,nz,E_r,E_g,E_b,E,stderr,on_surface,node,paths,runs,open\n";
+    std::string out = "x,y,z,nx,ny,nz,E_r,E_g,E_b,E,stderr,on_surface,node,paths,runs,seen\n";
     for (const Probe& p : reference.probes) {
         const dvec3& at = p.place.point;
         const dvec3& n = p.place.normal;
         out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},1,{},{},{},{}\n", at.x, at.y, at.z, n.x, n.y, n.z,
                            p.irradiance.r, p.irradiance.g, p.irradiance.b, luminance(p.irradiance), p.standard_error, p.node,
-                           reference.paths, reference.runs, p.open);
+                           reference.paths, reference.runs, p.seen ? 1 : 0);
     }
     return out;
 }
@@ -110,7 +110,7 @@ bool read_cache(const fs::path& path, Reference& out) {
         p.irradiance = {float(number(6)), float(number(7)), float(number(8))};
         p.standard_error = number(10);
         p.node = cells[12];
-        p.open = number(15);
+        p.seen = number(15) != 0.0;
         out.paths = number(13);
         out.runs = unsigned(number(14));
         out.probes.push_back(p);
@@ -223,8 +223,8 @@ Row compare(const std::vector<Probe>& probes, const std::vector<SensorReading>& 
     double seen = 0.0;
     double seen_count = 0.0;
     for (std::size_t i = 0; i < probes.size(); ++i) {
-        seen += probes[i].open >= 0.1 ? squares[i] : 0.0;
-        seen_count += probes[i].open >= 0.1 ? 1.0 : 0.0;
+        seen += probes[i].seen ? squares[i] : 0.0;
+        seen_count += probes[i].seen ? 1.0 : 0.0;
     }
     row.rms_seen = seen_count > 0.0 ? std::sqrt(std::max(seen / seen_count, 0.0)) : 0.0;
     row.rms_spread = std::sqrt(spread) / n / (2.0 * std::max(row.rms, 1e-3));

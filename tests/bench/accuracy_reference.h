@@ -14,7 +14,7 @@ namespace atrium::bench {
 struct Probe {
     SensorPlace place;
     std::string node;
-    double open = 1.0; ///< LitPlace::open
+    bool seen = true; ///< LitPlace::seen()
     Rgb irradiance{0.0F};
     double standard_error = 0;
 };
@@ -46,7 +46,7 @@ struct Row {
     std::size_t points = 0;
     std::size_t unread = 0; ///< points at which the solution has no layer: shown black, counted as such
     double rms = 0;         ///< root of its mean square, less the reference's own variance
-    double rms_seen = 0;    ///< the same without gaps (LitPlace::open below a tenth)
+    double rms_seen = 0;    ///< the same without gaps (LitPlace::seen())
     double rms_spread = 0;  ///< standard error of rms from the choice of points and the reference's noise
     double bias = 0;
     double p50 = 0, p95 = 0, p99 = 0;
