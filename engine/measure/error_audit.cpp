@@ -18,6 +18,7 @@ constexpr int kResamples = 400;
 
 struct Comparison {
     std::vector<double> squares; ///< of the relative differences, less the reference's own variance
+    std::vector<double> sizes;   ///< of the relative differences, noise included
     double noise = 0;            ///< standard error of the mean square that noise alone causes
     double bias = 0;
     double bias_error = 0;
@@ -57,6 +58,7 @@ Comparison compare(const std::vector<SensorReading>& ours, const std::vector<Ref
         const double scale = std::max(std::clamp(e, r - 2.0 * s, r + 2.0 * s), floor);
         const double d = e - r;
         out.squares.push_back(scale > 0.0 ? (d * d - s * s) / (scale * scale) : 0.0);
+        out.sizes.push_back(scale > 0.0 ? std::abs(d) / scale : 0.0);
         const double rest = scale > 0.0 ? s * s / (scale * scale) : 0.0;
         // Variance of (d + noise)^2 - s^2 about d^2.
         noise += 2.0 * rest * rest + 4.0 * rest * std::max(out.squares.back(), 0.0);
@@ -152,6 +154,9 @@ Result<ErrorAudit> audit_error(const Scene& scene, const Solution& solution, con
     out.rms = std::sqrt(std::max(mean_of(found.squares), 0.0));
     out.low = std::sqrt(std::max(low, 0.0));
     out.high = std::sqrt(std::max(high, 0.0));
+    const auto middle = found.sizes.begin() + std::ptrdiff_t(found.sizes.size() / 2);
+    std::nth_element(found.sizes.begin(), middle, found.sizes.end());
+    out.typical = *middle;
     out.bias = found.bias;
     out.bias_error = found.bias_error;
     out.seconds = std::chrono::duration<double>(RunContext::Clock::now() - start).count();

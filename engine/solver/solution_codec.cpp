@@ -47,7 +47,7 @@ nlohmann::json to_json(const Statistics& s) {
             {"error_estimate", s.error_estimate},
             {"audit",
              {s.audit.rms, s.audit.low, s.audit.high, s.audit.bias, s.audit.bias_error, s.audit.points, s.audit.paths,
-              s.audit.rays, s.audit.seconds}},
+              s.audit.rays, s.audit.seconds, s.audit.typical}},
             {"link_budget_reached", s.link_budget_reached},
             {"counts", {s.triangles, s.elements, s.clusters, s.links, s.rays}},
             {"records", s.records},
@@ -78,7 +78,8 @@ Statistics statistics_from(const nlohmann::json& j) {
     s.error_estimate = j.at("error_estimate");
     if (j.contains("audit")) { // older projects have none
         const auto& a = j.at("audit");
-        s.audit = {a.at(0), a.at(1), a.at(2), a.at(3), a.at(4), a.at(5), a.at(6), a.at(7), a.at(8)};
+        s.audit = {a.at(0), a.at(1), a.at(2), a.at(3), a.at(4),
+                   a.at(5), a.at(6), a.at(7), a.at(8), a.size() > 9 ? double(a.at(9)) : 0.0};
     }
     s.link_budget_reached = j.value("link_budget_reached", false); // older projects do not say
     const auto& c = j.at("counts");

@@ -33,6 +33,7 @@ struct ErrorAudit {
     std::uint64_t paths = 0;  ///< of the truth at each point
     std::uint64_t rays = 0;
     double seconds = 0;
+    double typical = 0; ///< half of the places differ by no more than this, the truth's own noise included
     friend bool operator==(const ErrorAudit&, const ErrorAudit&) = default;
 };
 

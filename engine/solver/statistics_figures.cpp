@@ -15,6 +15,7 @@ std::vector<StatisticsFigure> statistics_figures(const Statistics& s) {
             {"error_audit.rms", s.audit.rms, Unit::Share},
             {"error_audit.low", s.audit.low, Unit::Share},
             {"error_audit.high", s.audit.high, Unit::Share},
+            {"error_audit.typical", s.audit.typical, Unit::Share},
             {"error_audit.bias", s.audit.bias, Unit::Share},
             {"error_audit.bias_error", s.audit.bias_error, Unit::Share},
             {"error_audit.points", std::uint64_t(s.audit.points)},

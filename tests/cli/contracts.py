@@ -20,7 +20,7 @@ STATISTICS = {
     "threads": int, "seed": int, "mode": str, "quality": str, "features": {f: {"used": bool, "why": str} for f in FEATURES},
     "time": {k: float for k in ("load", "build", "solve", "first_picture", "total")},
     "phases": list, "iterations": int, "converged": bool, "residual": float, "error_estimate": float,
-    "error_audit": {"rms": float, "low": float, "high": float, "bias": float, "bias_error": float, "points": int, "paths": int,
+    "error_audit": {"rms": float, "low": float, "high": float, "typical": float, "bias": float, "bias_error": float, "points": int, "paths": int,
                     "rays": int, "seconds": float},
     "elements": int, "clusters": int, "links": int, "rays": int, "particles_emitted": int, "particles_stored": int,
     "caustic_textures": list,

@@ -42,6 +42,8 @@ TEST(ErrorAudit, FindsAnErrorThatIsPutIn) {
     ASSERT_TRUE(wrong);
     EXPECT_NEAR(wrong->rms, 0.2, 0.02);
     EXPECT_NEAR(wrong->bias, 0.2, 0.01);
+    EXPECT_NEAR(wrong->typical, 0.2, 0.02);
+    EXPECT_LT(right->typical, 0.02);
     EXPECT_LE(wrong->low, 0.205);
     EXPECT_GE(wrong->high, 0.195);
     EXPECT_LE(wrong->low, wrong->rms);

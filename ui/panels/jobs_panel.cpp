@@ -261,7 +261,7 @@ void LightBadge::refresh() {
     const std::shared_ptr<const Solution> solution = engine_.solution();
     // While the next light is on its way the figure would be that of the last one.
     if (light_state(engine_) == LightState::UpToDate && solution && solution->statistics.audit.points > 0) {
-        text += tr(", error about %1").arg(percent_text(solution->statistics.error_estimate));
+        text += tr(", typical error %1").arg(percent_text(solution->statistics.audit.typical));
     }
     text_->setText(text);
     const qreal ratio = devicePixelRatioF();
