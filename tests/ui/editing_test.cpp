@@ -117,33 +117,31 @@ TEST_F(EditingTest, DropToSurfaceLowersAndLifts) {
 }
 
 TEST_F(EditingTest, SnapTogglesAndCtrlTurnsItRound) {
-    open_sample();
-    trigger(ActionId::SelectNone);
-    window->action(ActionId::Snap)->setChecked(true);
+    trigger(ActionId::New); // nothing else is there to be flush with
     Snapping steps = window->viewport().snapping();
     steps.grid = 0.25;
     window->viewport().set_snapping(steps);
     trigger(ActionId::AddBox);
     const NodeId box = window->document().selection()->active();
+    trigger(ActionId::FrameAll);
     trigger(ActionId::ToolMove);
     settle();
-    const dvec3 start = node(box).transform.translation;
-    const QPoint from = at(scene().world_bounds(box).centre() + dvec3(0.15, 0.1, 0.15));
-    drag(from, from + QPoint(37, 11));
-    const dvec3 moved = node(box).transform.translation - start;
-    EXPECT_GT(glm::length(moved), 0.2);
-    // In steps, or flush with something.
-    const DBox3 bounds = scene().world_bounds(box);
-    for (const int axis : {0, 2}) {
-        bool good = std::abs(std::remainder(moved[axis], 0.25)) < 1e-6;
-        scene().nodes.for_each([&](NodeId id, const Node& n) {
-            const DBox3 other = n.shape && id != box ? scene().world_bounds(id) : DBox3();
-            for (const double mine : {bounds.min[axis], bounds.max[axis]}) {
-                good = good || (!other.empty() &&
-                                std::min(std::abs(mine - other.min[axis]), std::abs(mine - other.max[axis])) < 1e-4);
+    for (const bool on : {false, true}) {
+        for (const bool ctrl : {false, true}) {
+            window->action(ActionId::Snap)->setChecked(on);
+            const dvec3 start = node(box).transform.translation;
+            const QPoint from = at(scene().world_bounds(box).centre() + dvec3(0.15, 0.1, 0.15));
+            drag(from, from + QPoint(int(0.6 / pixel_size(start)), 41), ctrl ? Qt::ControlModifier : Qt::NoModifier);
+            const dvec3 moved = node(box).transform.translation - start;
+            ASSERT_GT(glm::length(moved), 0.2) << on << ctrl;
+            double off = 0.0; // the grid, at most of the axes
+            for (int axis = 0; axis < 3; ++axis) {
+                off = std::max(off, std::abs(std::remainder(moved[axis], 0.25)));
             }
-        });
-        EXPECT_TRUE(good) << axis << ": " << moved[axis];
+            EXPECT_EQ(off < 1e-6, on != ctrl) << on << ctrl << ": " << moved.x << ' ' << moved.y << ' ' << moved.z;
+            trigger(ActionId::Undo);
+            settle();
+        }
     }
     window->action(ActionId::Snap)->setChecked(false);
 }

@@ -49,7 +49,7 @@ void WindowTest::type(QWidget* widget, const char* text, Qt::Key end) {
     settle();
 }
 
-void WindowTest::drag(const QPoint& from, const QPoint& to) {
+void WindowTest::drag(const QPoint& from, const QPoint& to, Qt::KeyboardModifiers held) {
     ViewportWidget* view = &window->viewport();
     QTest::mouseMove(view, from);
     settle();
@@ -58,11 +58,11 @@ void WindowTest::drag(const QPoint& from, const QPoint& to) {
     for (int i = 1; i <= kSteps; ++i) {
         const QPoint point = from + (to - from) * i / kSteps;
         QMouseEvent move(QEvent::MouseMove, QPointF(point), view->mapToGlobal(QPointF(point)), Qt::NoButton, Qt::LeftButton,
-                         Qt::NoModifier);
+                         held);
         QApplication::sendEvent(view, &move);
         settle();
     }
-    QTest::mouseRelease(view, Qt::LeftButton, {}, to);
+    QTest::mouseRelease(view, Qt::LeftButton, held, to);
     settle();
 }
 

@@ -31,7 +31,7 @@ protected:
     [[nodiscard]] NumberField* field(const char* name);
     void type(QWidget* widget, const char* text, Qt::Key end = Qt::Key_Return);
     void settle() { QTest::qWait(30); }
-    void drag(const QPoint& from, const QPoint& to);
+    void drag(const QPoint& from, const QPoint& to, Qt::KeyboardModifiers held = Qt::NoModifier);
     /// Screen point of a world point in the view.
     [[nodiscard]] QPoint at(const dvec3& world);
     [[nodiscard]] double pixel_size(const dvec3& world); ///< metres per pixel there
