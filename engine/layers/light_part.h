@@ -125,7 +125,8 @@ private:
     std::vector<Probe> probes_;
     std::vector<Request> requests_;
     bool repairing_ = false;
-    bool coarse_repair_ = false;      ///< the repair at hand looks at the coarsest nodes only
+    bool coarse_repair_ = false; ///< the repair at hand looks at the nodes of repair_level_ only
+    unsigned repair_level_ = 0;
     std::vector<vec3> round_places_;  ///< per node, of round charts, as far as repairs asked; empty without any
     std::vector<std::uint8_t> stale_; ///< per node (those beyond its end: 0): left out or guessed by a repair in a hurry
     std::size_t asked_ = 0;           ///< nodes that were asked for

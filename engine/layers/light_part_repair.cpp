@@ -11,11 +11,12 @@ namespace {
 
 using State = LightNode::State;
 
-/// Samples of one repair of a part: above a number only the coarsest nodes are looked at, and of these a number at most.
+/// Samples of one repair of a part. Where more are touched, those of the finest level of nodes that has no more stand for
+/// the others, of light that costs many rays a smaller number; soft light is looked at on the probes' level in any case.
 struct Most {
     std::size_t sharp; ///< where a sample is a few rays
     std::size_t dear;
-    std::size_t coarse;
+    std::size_t coarse; ///< of dear and soft light, standing for more
 };
 constexpr Most kInAHurry{16384, 2048, 512};
 constexpr Most kExact{1U << 20, 32768, 16384};
@@ -183,9 +184,19 @@ std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
         }
     }
     coarse_repair_ = part_.soft || asked.size() > (part_.sharp ? most.sharp : most.dear);
+    const std::size_t limit = part_.sharp ? most.sharp : most.coarse;
+    repair_level_ = part_.soft ? probe_level_ : cells_.max_level();
     if (coarse_repair_) {
-        std::erase_if(asked, [&](std::uint32_t i) { return ((cells_.nodes[i].x | cells_.nodes[i].y) & coarse) != 0; });
-        keep_most_seen(change, most.coarse, asked);
+        const auto keep_level = [&] {
+            const std::uint32_t between = cells_.steps(repair_level_) - 1;
+            std::erase_if(asked, [&](std::uint32_t i) { return ((cells_.nodes[i].x | cells_.nodes[i].y) & between) != 0; });
+        };
+        keep_level();
+        while (asked.size() > limit && repair_level_ > std::min(probe_level_, cells_.first_level())) {
+            --repair_level_;
+            keep_level();
+        }
+        keep_most_seen(change, limit, asked);
     }
     for (const std::uint32_t i : asked) {
         const LightNode& n = cells_.nodes[i];
@@ -229,7 +240,7 @@ std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
     return asked;
 }
 
-// Soft light changes slowly: what the coarsest nodes say of the change, the finer ones between them follow.
+// What the nodes of repair_level_ say of the change, the finer ones between them follow.
 void LightPart::spread_change(const std::vector<std::uint32_t>& asked, const std::vector<LightNode>& before) {
     std::vector<std::uint32_t> place(cells_.nodes.size(), LightCells::kNone); // of a node in `asked`
     for (std::uint32_t k = 0; k < asked.size(); ++k) {
@@ -242,7 +253,7 @@ void LightPart::spread_change(const std::vector<std::uint32_t>& asked, const std
         }
         return cells_.nodes[n].irradiance - before[place[n]].irradiance;
     };
-    const std::uint32_t finest = cells_.steps(probe_level_) - 1;
+    const std::uint32_t finest = cells_.steps(repair_level_) - 1;
     parallel_chunks(cells_.nodes.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context_->should_stop(); ++i) {
             LightNode& n = cells_.nodes[i];
@@ -250,7 +261,7 @@ void LightPart::spread_change(const std::vector<std::uint32_t>& asked, const std
                 continue;
             }
             // The smallest cell of the coarse levels around it that was ever there.
-            for (unsigned level = probe_level_;; --level) {
+            for (unsigned level = repair_level_;; --level) {
                 const std::uint32_t s = cells_.steps(level);
                 const LightCell cell{n.sheet, n.x & ~(s - 1), n.y & ~(s - 1), level};
                 const auto corner = cells_.corners(cell);

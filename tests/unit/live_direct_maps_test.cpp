@@ -34,7 +34,12 @@ struct Shadow {
         rays = std::make_unique<RayScene>(scene);
         charts = flat_charts(*rays);
     }
-    [[nodiscard]] float light_at(float x, float z) const { return glm::length(vec2(x, z) - centre) > radius ? kFull : 0.0F; }
+    float leaves = 0.0F; ///< per metre and direction, with gaps between them; 0 = one round shadow
+    [[nodiscard]] float light_at(float x, float z) const {
+        const vec2 d = vec2(x, z) - centre;
+        const bool gap = leaves > 0.0F && std::sin(kPi * leaves * d.x) * std::sin(kPi * leaves * d.y) > 0.0F;
+        return glm::length(d) > radius || gap ? kFull : 0.0F;
+    }
     [[nodiscard]] std::vector<DirectPart> parts(bool soft = false) {
         DirectPart part;
         part.soft = soft;
@@ -191,6 +196,25 @@ TEST(LiveDirectMaps, LargeChangesOfDearLightCostABoundedNumberOfSamples) {
     ASSERT_TRUE(report.complete);
     EXPECT_LE(report.samples, 512U);
     EXPECT_LT(shadow.error(maps), stale);
+}
+
+// Sharp light of which very much is touched, as by many leaves: what stands for all is as fine as the number of samples
+// allows.
+TEST(LiveDirectMaps, LargeChangesOfSharpLightKeepTheirShape) {
+    Shadow shadow;
+    shadow.leaves = 9.0F;
+    shadow.radius = 1.2F;
+    auto live = shadow.live();
+    DirectMaps maps = live->build(0.0, 1.0);
+    const LightChange change = shadow.move(vec2(0.11F, 0.05F));
+    const double stale = shadow.error(maps);
+    const RepairReport report = live->repair(change, maps, shadow.context);
+    ASSERT_TRUE(report.complete);
+    const double left = shadow.error(maps);
+    std::printf("of the error %.2f is left after %zu samples\n", left / stale, report.samples);
+    EXPECT_LE(report.samples, 16384U);
+    EXPECT_GT(report.samples, 2048U);
+    EXPECT_LT(left, 0.6 * stale);
 }
 
 // ---- shafts
