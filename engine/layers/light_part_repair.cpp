@@ -192,7 +192,7 @@ std::vector<std::uint32_t> LightPart::ask_again(const LightChange& change) {
             std::erase_if(asked, [&](std::uint32_t i) { return ((cells_.nodes[i].x | cells_.nodes[i].y) & between) != 0; });
         };
         keep_level();
-        while (asked.size() > limit && repair_level_ > std::min(probe_level_, cells_.first_level())) {
+        while (asked.size() > limit && repair_level_ > probe_level_) {
             --repair_level_;
             keep_level();
         }
