@@ -10,29 +10,40 @@ namespace atrium {
 namespace {
 
 constexpr std::uint32_t kSeed = 0x51EDU;
+constexpr std::uint32_t kBounceSeed = 0xB0C5U;
 constexpr std::size_t kMostRays = 4096;
 // Stratified directions err less than independent ones; how much less depends on the scene. A third of the variance is an
 // assumption, not a measurement.
 constexpr float kStratified = 0.35F;
 
+// Cosine-weighted about +z, by the concentric map (Shirley & Chiu 1997): strata stay compact.
+vec3 cosine_direction(const vec2& u) {
+    const vec2 v = 2.0F * u - vec2(1.0F);
+    float r = 0.0F;
+    float angle = 0.0F;
+    if (std::abs(v.x) > std::abs(v.y)) {
+        r = v.x;
+        angle = 0.25F * kPi * (v.y / v.x);
+    } else if (v.y != 0.0F) {
+        r = v.y;
+        angle = 0.5F * kPi - 0.25F * kPi * (v.x / v.y);
+    }
+    return {r * std::cos(angle), r * std::sin(angle), std::sqrt(std::max(1.0F - r * r, 0.0F))};
+}
+
 std::vector<vec3> cosine_directions() {
     std::vector<vec3> out(kMostRays);
     for (std::size_t i = 0; i < kMostRays; ++i) {
-        const vec2 u = sobol_owen2(std::uint32_t(i), 0, kSeed);
-        // Concentric map (Shirley & Chiu 1997): strata stay compact.
-        const vec2 v = 2.0F * u - vec2(1.0F);
-        float r = 0.0F;
-        float angle = 0.0F;
-        if (std::abs(v.x) > std::abs(v.y)) {
-            r = v.x;
-            angle = 0.25F * kPi * (v.y / v.x);
-        } else if (v.y != 0.0F) {
-            r = v.y;
-            angle = 0.5F * kPi - 0.25F * kPi * (v.x / v.y);
-        }
-        out[i] = vec3(r * std::cos(angle), r * std::sin(angle), std::sqrt(std::max(1.0F - r * r, 0.0F)));
+        out[i] = cosine_direction(sobol_owen2(std::uint32_t(i), 0, kSeed));
     }
     return out;
+}
+
+vec3 turned(const vec3& local, const vec3& normal) {
+    vec3 t;
+    vec3 b;
+    make_frame(normal, t, b);
+    return t * local.x + b * local.y + normal * local.z;
 }
 
 Hierarchy tree_of(const Hierarchy& solved, const LeafFlags& bright) {
@@ -48,8 +59,10 @@ IndirectGather::IndirectGather(const Hierarchy& solved, const RayScene& rays, Le
       bright_tree_(tree_of(solved, bright_)), bright_gather_(bright_tree_, rays),
       offset_(std::clamp(1e-5F * rays.bounds().diagonal(), 1e-6F, 1e-3F)), directions_(cosine_directions()) {}
 
-Rgb IndirectGather::along(const vec3& origin, const vec3& direction, std::uint32_t index, float& distance) const {
+Rgb IndirectGather::along(const vec3& origin, const vec3& direction, std::uint32_t index, const IndirectSettings& settings,
+                          unsigned bounce, float& distance) const {
     distance = std::numeric_limits<float>::infinity();
+    float travelled = 0.0F;
     Rgb sum(0.0F);
     LightWay way;
     way.ray = {origin, direction};
@@ -61,14 +74,16 @@ Rgb IndirectGather::along(const vec3& origin, const vec3& direction, std::uint32
             return way.bends > 0 ? sum + way.through * kPi * sky_ : sum; // seen straight it is direct light
         }
         distance = met == 0 ? hit.t : distance;
+        travelled += hit.t;
         const std::uint32_t leaf = h_.leaf_at(hit.surface, hit.triangle, !hit.front, hit.barycentric);
-        // What stands out is looked for by name, straight and over flat mirrors.
-        const bool by_name = leaf != Element::kNone && bright_[leaf] != 0 && (way.bends == 0 || imaged);
-        if (leaf != Element::kNone && !by_name) {
+        if (leaf != Element::kNone) {
             const Element& e = h_.elements[leaf];
-            Rgb direct(0.0F);
-            sum += way.through *
-                   (direct_ && direct_(hit, direct) ? e.emitted + e.rho * (direct + e.caustic + e.irradiance) : e.radiosity);
+            // What stands out is looked for by name, straight and over flat mirrors.
+            const bool by_name = bounce == 0 && bright_[leaf] != 0 &&
+                                 (way.bends == 0 ? !too_near(e, origin, settings.bright.nearest) : imaged);
+            if (!by_name) {
+                sum += way.through * sent_back(hit, e, travelled, index, settings, bounce);
+            }
         }
         const unsigned bends = way.bends;
         if (!send_on(rays_, hit, way)) {
@@ -81,14 +96,31 @@ Rgb IndirectGather::along(const vec3& origin, const vec3& direction, std::uint32
     return sum;
 }
 
+Rgb IndirectGather::sent_back(const Hit& hit, const Element& e, float travelled, std::uint32_t index,
+                              const IndirectSettings& settings, unsigned bounce) const {
+    Rgb direct(0.0F);
+    const bool known = direct_ && direct_(hit, direct);
+    if (travelled < settings.near * e.radius && bounce < settings.most_bounces && max_component(e.rho) > 0.0F) {
+        // The direction belongs to that of the first ray: neighbours err alike.
+        const vec3 normal = hit.front ? hit.geometric_normal : -hit.geometric_normal;
+        const vec2 u = sobol_owen2(index, 0, kBounceSeed + bounce);
+        float distance = 0.0F;
+        const Rgb reflected = along(hit_position(rays_, hit) + normal * offset_, turned(cosine_direction(u), normal), index,
+                                    settings, bounce + 1, distance);
+        return e.emitted + e.rho * ((known ? direct : e.direct) + e.caustic + reflected);
+    }
+    return known ? e.emitted + e.rho * (direct + e.caustic + e.irradiance) : e.radiosity;
+}
+
 FieldSample IndirectGather::irradiance(const vec3& point, const vec3& normal, const IndirectSettings& settings) const {
     FieldSample out;
     out.distance = std::numeric_limits<float>::infinity();
     if (h_.empty()) {
         return out;
     }
+    const vec3 origin = point + normal * offset_;
     if (!bright_tree_.empty()) {
-        const DirectSample bright = bright_gather_.irradiance(point, normal, settings.bright);
+        const DirectSample bright = bright_gather_.irradiance(origin, normal, settings.bright);
         out.irradiance = bright.irradiance;
         out.variance = bright.variance;
         if (mirrors_ != nullptr) {
@@ -100,7 +132,6 @@ FieldSample IndirectGather::irradiance(const vec3& point, const vec3& normal, co
     vec3 t;
     vec3 b;
     make_frame(normal, t, b);
-    const vec3 origin = point + normal * offset_;
     Rgb sum(0.0F);
     double light = 0.0;
     double light2 = 0.0;
@@ -113,7 +144,7 @@ FieldSample IndirectGather::irradiance(const vec3& point, const vec3& normal, co
         for (; done < wanted; ++done) {
             const vec3& d = directions_[done];
             float distance = 0.0F;
-            const Rgb radiosity = along(origin, t * d.x + b * d.y + normal * d.z, done, distance);
+            const Rgb radiosity = along(origin, t * d.x + b * d.y + normal * d.z, done, settings, 0, distance);
             near += 1.0 / std::max(double(distance), 1e-6);
             for (float& least : nearest) {
                 if (distance < least) {

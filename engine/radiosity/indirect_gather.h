@@ -17,7 +17,11 @@ struct IndirectSettings {
     unsigned rays = 64;      ///< over the hemisphere, a power of two: the same directions at every point of a wall
     unsigned max_rays = 256; ///< where the light comes unevenly
     float tolerance = 0.02F; ///< relative standard error that asks for no more rays
-    GatherSettings bright;   ///< for the spots that stand out
+    /// Where a ray ends nearer than this many radii of the leaf there, what the leaf reflects is not its mean: one more ray
+    /// tells how much reflected light reaches the very spot. In folds and corners the mean is another place's light.
+    float near = 0.0F;
+    unsigned most_bounces = 4; ///< of such further rays, one after the other
+    GatherSettings bright;     ///< for the spots that stand out; rays find those that its `nearest` leaves out
 };
 
 /// Direct irradiance at a point of a surface side, where it is known more closely than as the leaf's mean; false where not.
@@ -40,8 +44,12 @@ public:
 
 private:
     /// Radiosity that arrives along the index-th ray, over mirrors and through glass; `distance` of the first hit, infinite
-    /// without one.
-    [[nodiscard]] Rgb along(const vec3& origin, const vec3& direction, std::uint32_t index, float& distance) const;
+    /// without one. `bounce` = 0 at the point that is asked for, where what stands out is gathered by name.
+    [[nodiscard]] Rgb along(const vec3& origin, const vec3& direction, std::uint32_t index, const IndirectSettings& settings,
+                            unsigned bounce, float& distance) const;
+    /// Radiosity of a leaf where a ray of length `travelled` ends on it.
+    [[nodiscard]] Rgb sent_back(const Hit& hit, const Element& leaf, float travelled, std::uint32_t index,
+                                const IndirectSettings& settings, unsigned bounce) const;
 
     const Hierarchy& h_;
     const RayScene& rays_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace atrium {
@@ -190,6 +191,11 @@ struct InMirror {
 
 } // namespace
 
+bool too_near(const Element& e, const vec3& point, float radii) {
+    const vec3 d = e.centre - point;
+    return e.leaf() && glm::dot(d, d) < radii * radii * e.radius * e.radius;
+}
+
 PointGather::Visibility PointGather::visibility(std::uint32_t element, const SurfacePoint& receiver, unsigned count,
                                                 const MirrorSight* over) const {
     Visibility out;
@@ -260,7 +266,21 @@ void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& sett
     const auto smaller_error = [](const CutNode& a, const CutNode& b) {
         return a.error < b.error || (a.error == b.error && a.element > b.element);
     };
-    std::vector<CutNode> cut{evaluate(h_, rays_, far_, 0, p, over)};
+    // Whatever may hold leaves that are too near is opened first.
+    const auto look = [&](std::uint32_t index) {
+        CutNode node = evaluate(h_, rays_, far_, index, p, over);
+        if (settings.nearest > 0.0F && over == nullptr && h_.elements[index].power > 0.0F) {
+            const Element& e = h_.elements[index];
+            if (too_near(e, p.position, settings.nearest)) {
+                return CutNode{index};
+            }
+            if (!e.leaf() && glm::length(e.centre - p.position) < (1.0F + settings.nearest) * e.radius) {
+                node.error = std::numeric_limits<float>::max();
+            }
+        }
+        return node;
+    };
+    std::vector<CutNode> cut{look(0)};
     std::vector<CutNode> done; // nothing below them would change the result
     float total = luminance(cut[0].contribution + out.irradiance);
     while (!cut.empty() && cut.size() + done.size() < settings.max_cut) {
@@ -279,7 +299,7 @@ void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& sett
             continue;
         }
         for (std::uint32_t k = 0; k < e.child_count; ++k) {
-            const CutNode child = evaluate(h_, rays_, far_, e.first_child + k, p, over);
+            const CutNode child = look(e.first_child + k);
             const float light = luminance(child.contribution);
             total += light;
             if (child.error > 0.0F) {

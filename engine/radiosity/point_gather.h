@@ -14,7 +14,12 @@ struct GatherSettings {
     unsigned rays = 96;      ///< visibility rays shared out over the cut by contribution
     unsigned sun_rays = 16;
     unsigned sky_rays = 128;
+    /// Leaves whose middle is nearer than this many of their radii are left out: there their mean says too little of them.
+    float nearest = 0.0F;
 };
+
+/// An element is a leaf whose middle is nearer to a point than so many of its radii: see GatherSettings::nearest.
+[[nodiscard]] bool too_near(const Element& element, const vec3& point, float radii);
 
 /// Safe from any thread while the hierarchy does not change.
 class PointGather {

@@ -13,12 +13,13 @@ struct ReflectEffort {
     SightChange::Effort leaves;
     SightChange::Effort vertices;
     float least_share;         ///< of a vertex' hemisphere that what moved fills: below it the leaf's word is enough
+    float whole_share;         ///< the same from which all of its light is gathered anew, as a new solution would
     std::size_t most_vertices; ///< those that see most of it
     double tolerance;
     int most_sweeps;
 };
-constexpr ReflectEffort kHurried{{64.0F, 1, 16}, {192.0F, 4, 160}, 0.015F, 4000, 0.01, 8};
-constexpr ReflectEffort kExact{{256.0F, 4, 64}, {512.0F, 8, 256}, 0.002F, 1U << 20, 1e-4, 60};
+constexpr ReflectEffort kHurried{{64.0F, 1, 16}, {192.0F, 4, 160}, 0.015F, 2.0F, 4000, 0.01, 8};
+constexpr ReflectEffort kExact{{256.0F, 4, 64}, {512.0F, 8, 256}, 0.002F, 0.05F, 1U << 20, 1e-4, 60};
 
 constexpr std::size_t kMostBodies = 4; // that are looked at singly
 
@@ -80,7 +81,8 @@ std::vector<Rgb> GiEngine::solve_with_new_sight(Impl& s, const SightChange& sigh
     return solve_with_changed_sight(s.hierarchy, *live.exchange, rows, effort.tolerance, effort.most_sweeps, context);
 }
 
-// Vertices that see much of what moved look for themselves; those on what moved gather all anew, through a few records.
+// Vertices that see something of what moved look for themselves; those that see much, and those on it, gather all anew,
+// through a few records.
 std::vector<std::vector<VertexChange>> GiEngine::look_from_vertices(Impl& s, const SightChange& sight, bool in_a_hurry,
                                                                     const RunContext& context) {
     Impl::Live& live = *s.live;
@@ -112,7 +114,7 @@ std::vector<std::vector<VertexChange>> GiEngine::look_from_vertices(Impl& s, con
                         continue;
                     }
                     const float share = sight.share(side[v].position, side[v].normal);
-                    if (moved || places.was_covered(v, back)) {
+                    if (moved || places.was_covered(v, back) || share > effort.whole_share) {
                         found[i].push_back({2.0F, std::uint32_t(i), {v, back, Kind::Whole, Rgb(0.0F)}});
                     } else if (share > effort.least_share) {
                         found[i].push_back({share, std::uint32_t(i), {v, back, Kind::Sight, Rgb(0.0F)}});

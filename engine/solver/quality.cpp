@@ -27,9 +27,10 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         f.reflected.rays = hemisphere;
         f.reflected.max_rays = 4 * hemisphere;
         f.reflected.tolerance = 2.0F * tolerance;
-        f.reflected.bright = {2.0F * tolerance, 4 * cut, rays, 0, 0};
+        f.reflected.near = 1.0F;
+        f.reflected.bright = {2.0F * tolerance, 4 * cut, rays, 0, 0, 1.5F};
         f.cache.spacing = std::clamp(4.0F * std::sqrt(tolerance), 0.3F, 0.9F);
-        f.cache.smallest_reach = 5.0F * tolerance * unit;
+        f.cache.smallest_reach = 2.0F * tolerance * unit;
         f.cache.largest_reach = 1.0F * unit;
         f.cache.normal_cosine = 1.0F - 6.0F * tolerance;
         f.cache.contrast = 2.0F * tolerance;
@@ -86,6 +87,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     }
     out.first_field = look(0.1F, 96, 16, 8, 24, 32);
     out.first_field.reflected.max_rays = 32;
+    out.first_field.reflected.near = 0.0F;
     out.first_field.reflected.bright.rays = 8;
     out.first_field.cache.smallest_reach = 0.25F * unit;
     out.first_field.cache.spacing = 0.8F;

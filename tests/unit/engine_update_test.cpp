@@ -184,7 +184,7 @@ TEST(EngineUpdate, WhatGoesTakesItsShadowAlongAndBringsItBack) {
         std::printf("gone: rms %.2f %%, settled %.2f %%, had it stayed %.2f %%\n", 100.0 * followed, 100.0 * exact,
                     100.0 * stale);
         EXPECT_LT(followed, 0.25 * stale);
-        EXPECT_LT(exact, 0.15 * stale);
+        EXPECT_LT(exact, 0.05 * stale);
         EXPECT_EQ((*settled)->surfaces.size(), truth->surfaces.size()) << "it is not shown any more";
         EXPECT_TRUE(std::none_of((*settled)->surfaces.begin(), (*settled)->surfaces.end(),
                                  [&](const auto& layer) { return layer->node == room.box; }));

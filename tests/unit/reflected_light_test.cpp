@@ -4,6 +4,7 @@
 #include "engine/radiosity/irradiance_cache.h"
 #include "engine/radiosity/leaf_gather.h"
 #include "engine/radiosity/light_split.h"
+#include "engine/reference/reference.h"
 #include "tests/support/rooms.h"
 
 #include <gtest/gtest.h>
@@ -87,6 +88,90 @@ TEST(IndirectGather, WhatIsGatheredByNameIsNotGatheredTwice) {
     EXPECT_LT(b.variance, 0.1F * a.variance);
     EXPECT_NEAR(b.irradiance.r, a.irradiance.r, 3.0F * std::sqrt(a.variance + b.variance));
     EXPECT_LT(std::sqrt(a.variance), 0.05F * a.irradiance.r) << "or the comparison says little";
+}
+
+// Beside a spot that stands out its mean says too little: rays look at it, and it is still counted once.
+TEST(IndirectGather, SpotsThatAreTooNearAreLeftToTheRays) {
+    Scene scene = room(0.5F);
+    add_rectangle(scene, "panel", {2, 2.4, 1.5}, {0, -1, 0}, {1, 0, 0}, 1, 1, add_material(scene, 0.5F));
+    const RayScene rays(scene);
+    Hierarchy h = build_hierarchy(rays, {});
+    LeafFlags bright(h.elements.size(), 0);
+    for (std::size_t i = 0; i < h.elements.size(); ++i) {
+        Element& e = h.elements[i];
+        const bool panel = e.leaf() && std::abs(e.area - 1.0F) < 1e-3F;
+        bright[i] = panel ? 1 : 0;
+        e.radiosity = Rgb(panel ? 50.0F : 1.0F);
+    }
+    h.pull_radiosity();
+    IndirectSettings settings;
+    settings.rays = settings.max_rays = 1024;
+    settings.bright.nearest = 1.5F; // of the panel's radius of 0.71 m
+    const IndirectGather by_rays(h, rays, LeafFlags(h.elements.size(), 0));
+    const IndirectGather by_name(h, rays, bright);
+    const auto both = [&](double y) {
+        const vec3 p = vec3(dvec3(2.1, y, 1.4) - rays.origin());
+        return std::pair(by_rays.irradiance(p, {0, 1, 0}, settings).irradiance.r,
+                         by_name.irradiance(p, {0, 1, 0}, settings).irradiance.r);
+    };
+    const auto [near_rays, near_name] = both(1.9);
+    EXPECT_GT(near_rays, 20.0F);
+    EXPECT_EQ(near_name, near_rays) << "the same rays and nothing else";
+    const auto [far_rays, far_name] = both(0.0);
+    EXPECT_NE(far_name, far_rays) << "by name again";
+    EXPECT_NEAR(far_name, far_rays, 0.1F * far_rays);
+}
+
+// Between two plates light fades from their open edge inwards. On leaves as large as the plates that is one mean; four
+// further rays leave of its error what four reflections leave.
+TEST(IndirectGather, NarrowPlacesAreAsDarkAsTheyAreThoughLeavesAreLarge) {
+    constexpr float kRho = 0.5F;
+    Scene scene;
+    const MaterialId grey = add_material(scene, kRho);
+    add_rectangle(scene, "left", {0, 0.25, 0}, {1, 0, 0}, {0, 0, 1}, 2, 0.5F, grey);
+    add_rectangle(scene, "right", {0.06, 0.25, 0}, {-1, 0, 0}, {0, 0, 1}, 2, 0.5F, grey);
+    add_rectangle(scene, "lamp", {0.03, 0.6, 0}, {0, -1, 0}, {0, 0, 1}, 2, 1.0F, add_material(scene, 0.0F, 1000.0F));
+    const RayScene rays(scene);
+    HierarchySettings coarse;
+    coarse.smallest_patch = 4.0F;
+    Hierarchy h = build_hierarchy(rays, coarse);
+    // The leaves' means are those of the truth, so that all that is off is where in the leaf the light is.
+    std::vector<ReferencePoint> points;
+    for (int i = 0; i < 25; ++i) {
+        points.push_back({{0, 0.01 + 0.02 * i, 0.1}, {1, 0, 0}});
+    }
+    ReferenceSettings paths;
+    paths.paths = 16384;
+    const auto truth = reference_irradiance(scene, points, paths, RunContext{});
+    ASSERT_TRUE(bool(truth));
+    double mean = 0.0;
+    for (const ReferenceReading& r : truth->points) {
+        mean += luminance(r.irradiance) / double(points.size());
+    }
+    for (Element& e : h.elements) {
+        if (e.leaf() && e.rho.r > 0.0F) {
+            e.irradiance = Rgb(float(mean));
+            e.radiosity = e.rho * e.irradiance;
+            EXPECT_GT(e.area, 0.9F) << "one leaf a plate";
+        } else if (e.leaf()) {
+            e.radiosity = e.emitted;
+        }
+    }
+    h.pull_radiosity();
+    const IndirectGather gather(h, rays, LeafFlags(h.elements.size(), 0));
+    IndirectSettings settings;
+    settings.rays = settings.max_rays = 4096;
+    const std::size_t deep = 5; // 11 cm from the lower edge
+    const vec3 p = vec3(points[deep].position - rays.origin());
+    const double right = luminance(truth->points[deep].irradiance);
+    const double by_means = luminance(gather.irradiance(p, {1, 0, 0}, settings).irradiance);
+    settings.near = 1.0F;
+    const FieldSample near = gather.irradiance(p, {1, 0, 0}, settings);
+    EXPECT_GT(by_means, 3.0 * right) << "or the case says nothing";
+    const double left_of_means = std::pow(kRho, 1.0 + settings.most_bounces) * mean;
+    const double noise = std::hypot(std::sqrt(double(near.variance)), truth->points[deep].standard_error);
+    EXPECT_NEAR(luminance(near.irradiance), right, left_of_means + 3.0 * noise);
+    EXPECT_LT(left_of_means, 0.1 * (by_means - right));
 }
 
 std::vector<SurfacePoint> floor_points(const RayScene& rays, int n, double x0, double x1) {
