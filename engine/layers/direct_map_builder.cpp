@@ -1,8 +1,10 @@
 #include "engine/layers/direct_map_builder.h"
 
 #include "engine/base/checks.h"
+#include "engine/base/parallel.h"
 #include "engine/layers/light_map_assembly.h"
 #include "engine/layers/light_part.h"
+#include "engine/layers/lit_tiles.h"
 #include "engine/layers/near_things.h"
 
 #include <algorithm>
@@ -10,6 +12,10 @@
 
 namespace atrium {
 namespace {
+
+// Of a part that is looked at anew in a hurry.
+constexpr std::size_t kMostSamples = 40'000;     // on the first grid
+constexpr std::size_t kMostFineTexels = 300'000; // beyond it
 
 // Sums over a part's cells, for the area-weighted mean of the relative variances of its samples.
 struct ErrorSum {
@@ -46,8 +52,11 @@ struct ErrorSum {
 struct LiveDirectMaps::Impl {
     Impl(const RayScene& rays, std::span<const SurfaceCharts> charts, std::vector<DirectPart> lights,
          const std::function<bool(std::uint32_t)>& back_lit, const DirectMapSettings& settings, const RunContext& context)
-        : charts_(charts), lights_(std::move(lights)), sheets_(rays, charts, back_lit, context), settings_(settings),
-          context_(&context), budget_(settings.max_samples) {
+        : charts_(charts), sheets_(rays, charts, back_lit, context), settings_(settings), context_(&context),
+          budget_(settings.max_samples) {
+        for (DirectPart& part : lights) {
+            lights_.push_back(std::make_unique<DirectPart>(std::move(part)));
+        }
         for (const LightSheet& s : sheets_.sheets()) {
             const Chart& c = *s.chart;
             places_.push_back({std::uint32_t(places_.size()), c.tile_u, c.tile_v, c.tiles_u, c.tiles_v});
@@ -60,16 +69,19 @@ struct LiveDirectMaps::Impl {
     Impl& operator=(const Impl&) = delete;
 
     DirectMaps build(double from, double to) {
-        parts_.reserve(lights_.size());
-        const bool soft = std::any_of(lights_.begin(), lights_.end(), [](const DirectPart& p) { return p.soft; });
+        const bool soft = std::any_of(lights_.begin(), lights_.end(), [](const auto& p) { return p->soft; });
         if (soft && settings_.first_level > 0) {
             near_ = cells_near_things(sheets_, std::min(settings_.first_level, settings_.max_level), settings_.max_level,
                                       *context_);
         }
         for (std::size_t i = 0; i < lights_.size(); ++i) {
-            LightPart part(sheets_, lights_[i], parts_, near_, settings_, budget_, *context_);
+            std::vector<const LightPart*> before;
+            for (const auto& part : parts_) {
+                before.push_back(part.get());
+            }
+            auto part = std::make_unique<LightPart>(sheets_, *lights_[i], before, near_, settings_, budget_, *context_);
             const double step = (to - from) / double(lights_.size());
-            if (!part.run(from + step * double(i), from + step * double(i + 1))) {
+            if (!part->run(from + step * double(i), from + step * double(i + 1))) {
                 return {};
             }
             parts_.push_back(std::move(part));
@@ -81,19 +93,19 @@ struct LiveDirectMaps::Impl {
         context_ = &context;
         RepairReport out;
         changed_.resize(sheets_.sheets().size(), 0);
-        std::size_t before = 0;
-        for (const LightPart& part : parts_) {
-            before += part.samples_taken();
-        }
-        for (LightPart& part : parts_) {
-            if (!part.repair(change, context, changed_)) {
-                return out;
+        std::vector<const LightPart*> all;
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            if (i != change.anew) { // which may be empty
+                all.push_back(parts_[i].get());
             }
         }
-        for (const LightPart& part : parts_) {
-            out.samples += part.samples_taken();
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            const std::size_t before = i == change.anew ? 0 : parts_[i]->samples_taken();
+            if (i == change.anew ? !look_anew(i, change.exact) : !parts_[i]->repair(change, all, context, changed_)) {
+                return out;
+            }
+            out.samples += parts_[i]->samples_taken() - before;
         }
-        out.samples -= before;
         std::vector<std::uint8_t> of_surface(charts_.size(), 0);
         for (std::size_t i = 0; i < changed_.size(); ++i) {
             of_surface[sheets_.sheets()[i].surface] |= changed_[i];
@@ -117,7 +129,7 @@ struct LiveDirectMaps::Impl {
         out.front.resize(charts_.size());
         out.back.resize(charts_.size());
         for (const PartSource& in : source) {
-            out.nodes.emplace_back(in.part, parts_[in.part].light_of(in.light, brightness, context));
+            out.nodes.emplace_back(in.part, parts_[in.part]->light_of(in.light, brightness, context));
             if (context.should_stop()) {
                 return std::nullopt;
             }
@@ -126,8 +138,8 @@ struct LiveDirectMaps::Impl {
         std::vector<LightCells*> cells;
         std::vector<std::vector<Rgb>> before;
         for (const auto& [part, light] : out.nodes) {
-            std::vector<LightNode>& nodes = parts_[part].cells().nodes;
-            cells.push_back(&parts_[part].cells());
+            std::vector<LightNode>& nodes = parts_[part]->cells().nodes;
+            cells.push_back(&parts_[part]->cells());
             std::vector<Rgb>& kept = before.emplace_back(nodes.size());
             for (std::size_t i = 0; i < nodes.size(); ++i) {
                 kept[i] = nodes[i].irradiance;
@@ -146,29 +158,99 @@ struct LiveDirectMaps::Impl {
 
     void add_light(const SourceLight& source, const Rgb& change) {
         for (const auto& [part, light] : source.nodes) {
-            parts_[part].add_light(light, change);
+            parts_[part]->add_light(light, change);
         }
+    }
+
+    bool take_out(std::span<const LeavingLight> leaving, const RunContext& context) {
+        std::vector<std::vector<Rgb>> light;
+        for (const LeavingLight& l : leaving) {
+            light.push_back(parts_[l.part]->all_light_of(l.light, context));
+        }
+        if (context.should_stop()) {
+            return false;
+        }
+        changed_.resize(sheets_.sheets().size(), 0);
+        for (std::size_t k = 0; k < light.size(); ++k) {
+            LightPart& part = *parts_[leaving[k].part];
+            mark_lit(part.cells(), light[k]);
+            part.add_light(light[k], Rgb(-1.0F));
+        }
+        return true;
+    }
+
+    std::size_t add_part(DirectPart part, const RunContext& context) {
+        lights_.push_back(std::make_unique<DirectPart>(std::move(part)));
+        parts_.push_back(std::make_unique<LightPart>(sheets_, *lights_.back(), std::vector<const LightPart*>{}, near_,
+                                                     settings_, budget_, context, LightPart::Effort::Hurried));
+        return parts_.size() - 1;
     }
 
     [[nodiscard]] std::size_t memory_bytes() const {
         std::size_t bytes = 0;
-        for (const LightPart& part : parts_) {
-            bytes += part.memory_bytes();
+        for (const auto& part : parts_) {
+            bytes += part->memory_bytes();
         }
         return bytes;
     }
 
 private:
     using Maps = std::vector<std::shared_ptr<const LightMap>>;
+
+    // Samples a part from nothing. Judged as when all was built: against its own light and that of the first part. False
+    // when asked to stop: the part stays as it was.
+    bool look_anew(std::size_t index, bool exact) {
+        const unsigned first = std::min(settings_.first_level, settings_.max_level);
+        auto budget = std::make_unique<TileBudget>(0);
+        std::uint32_t tile = 0;
+        for (const LightSheet& s : sheets_.sheets()) {
+            for (const std::uint8_t used : s.used) {
+                std::uint32_t level = first;
+                for (std::size_t i = 0; exact && used != 0 && i < parts_.size(); ++i) {
+                    const std::uint32_t own = i == index ? LightCells::kNone : parts_[i]->cells().tile_level(tile);
+                    level = own != LightCells::kNone ? std::max(level, own) : level;
+                }
+                budget->add_tile(level, used != 0);
+                ++tile;
+            }
+        }
+        budget->allow(exact ? std::max(settings_.max_samples, budget->samples()) : budget->samples() + kMostFineTexels);
+        const std::size_t most_tiles = exact ? 0 : std::max<std::size_t>(kMostSamples >> (2 * first), 1);
+        near_anew_ = cells_within_reach(sheets_, *lights_[index], first, settings_.max_level, most_tiles, *context_);
+        std::vector<const LightPart*> before;
+        if (index > 0) {
+            before.push_back(parts_.front().get());
+        }
+        auto part = std::make_unique<LightPart>(sheets_, *lights_[index], before, near_anew_, settings_, *budget, *context_,
+                                                exact ? LightPart::Effort::Anew : LightPart::Effort::Hurried);
+        if (!part->run(0.0, 0.0)) {
+            return false;
+        }
+        for (const LightPart* p : {parts_[index].get(), part.get()}) {
+            mark_lit(p->cells(), {});
+        }
+        parts_[index] = std::move(part);
+        budget_anew_ = std::move(budget);
+        return true;
+    }
+
+    // Sheets on which `light` (per node; empty: that of the nodes) shines have changed.
+    void mark_lit(const LightCells& cells, const std::vector<Rgb>& light) {
+        for (std::size_t i = 0; i < cells.nodes.size(); ++i) {
+            const LightNode& n = cells.nodes[i];
+            changed_[n.sheet] |= max_component(light.empty() ? n.irradiance : light[i]) > 0.0F ? 1 : 0;
+        }
+    }
+
     DirectMaps finish(double to) {
         DirectMaps out;
         out.front.resize(charts_.size());
         out.back.resize(charts_.size());
         out.limited_tiles = budget_.limited();
         ErrorSum error;
-        for (LightPart& part : parts_) {
-            out.evaluations += part.evaluations();
-            error.add(part, sheets_, settings_.light_floor);
+        for (const auto& part : parts_) {
+            out.evaluations += part->evaluations();
+            error.add(*part, sheets_, settings_.light_floor);
         }
         out.error_estimate = error.area > 0.0 ? std::sqrt(error.weighted / error.area) : 0.0;
         assemble([](std::uint32_t) { return true; }, out);
@@ -187,8 +269,8 @@ private:
 
     template <class Wanted> void assemble(const Wanted& wanted, DirectMaps& out) {
         std::vector<LightCells*> cells;
-        for (LightPart& part : parts_) {
-            cells.push_back(&part.cells());
+        for (const auto& part : parts_) {
+            cells.push_back(&part->cells());
         }
         assemble(wanted, cells, out.front, out.back);
     }
@@ -205,15 +287,25 @@ private:
         }
         std::vector<std::uint8_t> lit(sheets.size(), 0);
         std::vector<LightCells*> all;
-        for (LightPart& part : parts_) {
-            all.push_back(&part.cells());
+        for (const auto& part : parts_) {
+            all.push_back(&part->cells());
         }
-        std::vector<std::vector<std::pair<std::uint32_t, LightNode>>> filled;
-        for (LightCells* part : cells) {
-            for (const LightNode& n : part->nodes) {
-                lit[n.sheet] |= max_component(n.irradiance) > 0.0F ? 1 : 0;
+        std::vector<std::vector<std::pair<std::uint32_t, LightNode>>> filled(cells.size());
+        std::vector<PartCells> parts(cells.size());
+        std::vector<std::vector<std::uint8_t>> lit_sheets(cells.size(), lit);
+        parallel_chunks(cells.size(), 1, [&](std::size_t first, std::size_t last, std::size_t) {
+            for (std::size_t i = first; i < last; ++i) {
+                parts[i] = {cells[i], cells[i]->tile_marks()};
+                for (const LightNode& n : cells[i]->nodes) {
+                    lit_sheets[i][n.sheet] |= max_component(n.irradiance) > 0.0F ? 1 : 0;
+                }
+                filled[i] = fill_unknown_nodes(*cells[i], places, parts[i].marks);
             }
-            filled.push_back(fill_unknown_nodes(*part, places));
+        });
+        for (const std::vector<std::uint8_t>& of_part : lit_sheets) {
+            for (std::size_t i = 0; i < lit.size(); ++i) {
+                lit[i] |= of_part[i];
+            }
         }
         for (std::size_t begin = 0; begin < places.size();) {
             const std::uint32_t surface = sheets[places[begin].sheet].surface;
@@ -227,7 +319,7 @@ private:
             }
             for (std::size_t k = 0; k < 2; ++k) {
                 auto& map = (k == 0 ? front : back)[surface];
-                map = any[k] ? std::make_shared<LightMap>(assemble_light_map(cells, all, side[k], charts_[surface].width,
+                map = any[k] ? std::make_shared<LightMap>(assemble_light_map(parts, all, side[k], charts_[surface].width,
                                                                              charts_[surface].height, *context_))
                              : nullptr;
             }
@@ -249,13 +341,15 @@ private:
     }
 
     std::span<const SurfaceCharts> charts_;
-    std::vector<DirectPart> lights_;
+    std::vector<std::unique_ptr<DirectPart>> lights_;
     LightSheets sheets_;
     DirectMapSettings settings_;
     const RunContext* context_; ///< of the call at hand
     TileBudget budget_;
-    std::vector<LightCell> near_; ///< that soft parts divide at once
-    std::vector<LightPart> parts_;
+    std::unique_ptr<TileBudget> budget_anew_; ///< of the part that was looked at anew
+    std::vector<LightCell> near_;             ///< that soft parts divide at once
+    std::vector<LightCell> near_anew_;        ///< that a part divides at once that is looked at anew
+    std::vector<std::unique_ptr<LightPart>> parts_;
     std::vector<SheetPlace> places_;    ///< of all sheets
     std::vector<std::uint8_t> changed_; ///< per sheet: samples are new that no map shows yet
 };
@@ -274,6 +368,12 @@ RepairReport LiveDirectMaps::repair(const LightChange& change, DirectMaps& maps,
 std::optional<SourceLight> LiveDirectMaps::light_of(std::span<const PartSource> source, const Rgb& brightness,
                                                     const RunContext& context) {
     return impl_->light_of(source, brightness, context);
+}
+bool LiveDirectMaps::take_out(std::span<const LeavingLight> light, const RunContext& context) {
+    return impl_->take_out(light, context);
+}
+std::size_t LiveDirectMaps::add_part(DirectPart part, const RunContext& context) {
+    return impl_->add_part(std::move(part), context);
 }
 void LiveDirectMaps::add_light(const SourceLight& source, const Rgb& change) { impl_->add_light(source, change); }
 std::size_t LiveDirectMaps::memory_bytes() const { return impl_->memory_bytes(); }

@@ -30,6 +30,10 @@ struct DirectPart {
     /// A change within the box may change the light at the point, or at any within `radius` of it; anything may when empty.
     /// Called from many threads.
     std::function<bool(const vec3& point, float radius, const Box3& box)> touched = {};
+    /// No more light than this (lux) reaches a place within `radius` of the point, whatever is in the way, in the plane
+    /// across the unit `normal` through the point; 0 = any plane. Where it is empty nothing is known. Called from many
+    /// threads.
+    std::function<float(const vec3& point, float radius, const vec3& normal)> most = {};
 };
 
 /// What moved: where to look for light that changed.
@@ -39,6 +43,9 @@ struct LightChange {
     /// Many samples, with all their rays, instead of those that count at a glance; what earlier repairs left out or looked
     /// at in passing is made good.
     bool exact = false;
+    /// A part that is looked at anew wherever it shines, since its sources themselves moved; kNone: none.
+    std::size_t anew = kNone;
+    static constexpr std::size_t kNone = SIZE_MAX;
 };
 
 /// What a repair did.
@@ -52,6 +59,12 @@ struct RepairReport {
 struct PartSource {
     std::size_t part = 0;
     DirectFunction light; ///< that source alone, over its brightness; empty: the part has no other source
+};
+
+/// What sources send that leave a part: see LiveDirectMaps::take_out().
+struct LeavingLight {
+    std::size_t part = 0;
+    DirectFunction light; ///< of these sources alone; empty: the part has no others
 };
 
 /// What one source sends, over its brightness. Light is linear in it.
@@ -100,12 +113,19 @@ public:
     DirectMaps build(double progress_from, double progress_to);
     /// Looks again at the samples that a change touches, closer where edges of shadows come to lie, and replaces the maps of
     /// `maps` (what build() made) whose light changed. Cells are never joined again; soft parts are looked at on the
-    /// coarsest grid where what moved looks largest, and finer samples follow by interpolation of the change.
+    /// coarsest grid where what moved looks largest, and finer samples follow by interpolation of the change. A part that is
+    /// to be looked at anew starts from nothing: its cells are then those of a new map, coarser unless all is to be exact.
     RepairReport repair(const LightChange& change, DirectMaps& maps, const RunContext& context);
     /// The light of one source, from what is known of the parts that it shines in; rays are traced only where these have
     /// other sources. `brightness`: of the source now. Holds until the next repair. Nothing when asked to stop.
     [[nodiscard]] std::optional<SourceLight> light_of(std::span<const PartSource> source, const Rgb& brightness,
                                                       const RunContext& context);
+    /// Takes light out of parts, whose functions give none of it any more: some other part has it from now on. False, and
+    /// nothing has changed, when asked to stop. Maps show it until the next repair is complete.
+    bool take_out(std::span<const LeavingLight> light, const RunContext& context);
+    /// Adds a part without any light, for LightChange::anew to look at before all else; returns its number. One at most is
+    /// looked at so.
+    std::size_t add_part(DirectPart part, const RunContext& context);
     /// Makes a source brighter by `change`, for repairs to start from; maps that show it already are the caller's.
     void add_light(const SourceLight& source, const Rgb& change);
     [[nodiscard]] std::size_t memory_bytes() const;

@@ -36,6 +36,33 @@ std::uint32_t LightCells::tile_index(const LightCell& cell) const {
     return tile_index(cell.sheet, cell.x >> max_level_, cell.y >> max_level_);
 }
 
+std::vector<std::uint8_t> LightCells::tile_marks() const {
+    std::vector<std::uint8_t> out(tiles_.size(), 0);
+    for (const LightNode& n : nodes) {
+        const bool open = n.state == LightNode::State::Covered || n.state == LightNode::State::Void;
+        const auto mark = std::uint8_t((max_component(n.irradiance) > 0.0F ? kLit : 0U) | (open ? kOpen : 0U));
+        if (mark != 0) {
+            mark_tiles(n, mark, out);
+        }
+    }
+    return out;
+}
+
+void LightCells::mark_tiles(const LightNode& n, std::uint8_t mark, std::vector<std::uint8_t>& marks) const {
+    const Sheet& s = sheets_[n.sheet];
+    const std::uint32_t inside = steps_per_tile() - 1;
+    const std::uint32_t u = n.x >> max_level_, v = n.y >> max_level_;
+    for (std::uint32_t k = 0; k < 4; ++k) { // on an edge it belongs to the tile before it too
+        const std::uint32_t du = k & 1U, dv = k >> 1U;
+        if ((du != 0 && ((n.x & inside) != 0 || u == 0)) || (dv != 0 && ((n.y & inside) != 0 || v == 0))) {
+            continue;
+        }
+        if (u - du < s.tiles_u && s.first_tile + (v - dv) * s.tiles_u + u - du < marks.size()) {
+            marks[s.first_tile + (v - dv) * s.tiles_u + u - du] |= mark;
+        }
+    }
+}
+
 std::uint32_t LightCells::tile_level(std::uint32_t tile) const { return tiles_[tile].level; }
 
 std::size_t LightCells::slot(std::uint32_t sheet, std::uint32_t x, std::uint32_t y) const {

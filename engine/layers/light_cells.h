@@ -70,6 +70,13 @@ public:
         return nodes.size() * sizeof(LightNode) + tiles_.size() * sizeof(TileState) + bits_.size() * 8 + table_.size() * 4;
     }
 
+    static constexpr std::uint8_t kLit = 1;  ///< some node of a tile shines
+    static constexpr std::uint8_t kOpen = 2; ///< some node of it is covered or away from the surface
+    /// Which of these hold, per tile over all sheets.
+    [[nodiscard]] std::vector<std::uint8_t> tile_marks() const;
+    /// Sets marks of the tiles (up to four) that a node lies on.
+    void mark_tiles(const LightNode& node, std::uint8_t mark, std::vector<std::uint8_t>& marks) const;
+
     std::vector<LightNode> nodes;
     /// Node at a place; kNone where there is none.
     [[nodiscard]] std::uint32_t find(std::uint32_t sheet, std::uint32_t x, std::uint32_t y) const;

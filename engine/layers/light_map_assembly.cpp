@@ -160,12 +160,16 @@ void stitch(const SheetPlace& s, LightMap& map, std::uint32_t u, std::uint32_t v
 
 } // namespace
 
-std::vector<std::pair<std::uint32_t, LightNode>> fill_unknown_nodes(LightCells& cells, std::span<const SheetPlace> sheets) {
+std::vector<std::pair<std::uint32_t, LightNode>> fill_unknown_nodes(LightCells& cells, std::span<const SheetPlace> sheets,
+                                                                    std::vector<std::uint8_t>& marks) {
     std::vector<OpenCell> covered, away;
     std::vector<LightCell> leaves;
     for (const SheetPlace& s : sheets) {
         for (std::uint32_t v = 0; v < s.tiles_v; ++v) {
             for (std::uint32_t u = 0; u < s.tiles_u; ++u) {
+                if ((marks[cells.tile_index(s.sheet, u, v)] & LightCells::kOpen) == 0) {
+                    continue;
+                }
                 cells.leaves(s.sheet, u, v, leaves);
                 for (const LightCell& c : leaves) {
                     const OpenCell open{cells.corners(c)};
@@ -186,15 +190,15 @@ std::vector<std::pair<std::uint32_t, LightNode>> fill_unknown_nodes(LightCells& 
     std::vector<std::pair<std::uint32_t, LightNode>> before;
     flood(cells, std::move(covered), State::Covered, before);
     flood(cells, std::move(away), State::Void, before);
+    for (const auto& [node, was] : before) {
+        if (max_component(cells.nodes[node].irradiance) > 0.0F) {
+            cells.mark_tiles(cells.nodes[node], LightCells::kLit, marks);
+        }
+    }
     return before;
 }
 
-LightMap assemble_light_map(std::span<LightCells* const> parts, std::span<const SheetPlace> sheets, std::uint32_t width,
-                            std::uint32_t height, const RunContext& context) {
-    return assemble_light_map(parts, parts, sheets, width, height, context);
-}
-
-LightMap assemble_light_map(std::span<LightCells* const> parts, std::span<LightCells* const> all,
+LightMap assemble_light_map(std::span<const PartCells> parts, std::span<LightCells* const> all,
                             std::span<const SheetPlace> sheets, std::uint32_t width, std::uint32_t height,
                             const RunContext& context) {
     LightMap map;
@@ -233,8 +237,10 @@ LightMap assemble_light_map(std::span<LightCells* const> parts, std::span<LightC
     parallel_chunks(places.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
             const Place& p = places[i];
-            for (const LightCells* part : parts) {
-                fill_tile(*part, sheets[p.sheet], p.u, p.v, map, map.tiles[p.tile]);
+            for (const PartCells& part : parts) {
+                if ((part.marks[part.cells->tile_index(sheets[p.sheet].sheet, p.u, p.v)] & LightCells::kLit) != 0) {
+                    fill_tile(*part.cells, sheets[p.sheet], p.u, p.v, map, map.tiles[p.tile]);
+                }
             }
         }
     });

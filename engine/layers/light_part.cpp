@@ -15,14 +15,17 @@ constexpr std::size_t kGrain = 32;
 
 } // namespace
 
-LightPart::LightPart(const LightSheets& sheets, const DirectPart& part, const std::vector<LightPart>& before,
+LightPart::LightPart(const LightSheets& sheets, const DirectPart& part, std::vector<const LightPart*> before,
                      const std::vector<LightCell>& near, const DirectMapSettings& settings, TileBudget& budget,
-                     const RunContext& context)
-    : sheets_(sheets), part_(part), before_(before), near_(near), settings_(settings), budget_(budget), context_(&context),
-      finest_(part.soft ? std::max(settings.first_level, settings.max_level - std::min(settings.max_level, 2U))
-                        : settings.max_level),
+                     const RunContext& context, Effort effort)
+    : sheets_(sheets), part_(part), before_(std::move(before)), near_(near), settings_(settings), budget_(budget),
+      context_(&context), effort_(effort),
+      finest_(part.soft || effort == Effort::Hurried
+                  ? std::max(settings.first_level, settings.max_level - std::min(settings.max_level, 2U))
+                  : settings.max_level),
       probe_level_(std::min(settings.first_level, settings.max_level)),
-      cells_(part.soft ? 0 : settings.first_level, settings.max_level) {
+      cells_(part.soft || effort != Effort::Build ? 0 : settings.first_level, settings.max_level) {
+    judged_by_ = before_;
     for (const LightSheet& s : sheets.sheets()) {
         cells_.add_sheet(s.chart->tiles_u, s.chart->tiles_v, s.used);
         first_probe_.push_back(probes_.size());
@@ -109,11 +112,21 @@ std::vector<LightCell> LightPart::first_cells() {
         divide_near_things(fresh);
     }
     for (const LightCell& c : fresh) {
-        if (!part_.soft || c.level < probe_level_) {
+        if (probes(c)) {
             ask_for_probe(c);
         }
     }
     return fresh;
+}
+
+// Whether a first cell is probed: where tiles start whole, large cells are those of soft light, or those without light.
+bool LightPart::probes(const LightCell& c) const {
+    switch (effort_) {
+    case Effort::Build: return !part_.soft || c.level < probe_level_;
+    case Effort::Anew: return c.level == probe_level_;
+    case Effort::Hurried: break;
+    }
+    return false;
 }
 
 // Replaces whole tiles by their parts where things stand close.
@@ -234,7 +247,8 @@ LightNode::State LightPart::state_of_other_parts(const Request& request) const {
     if (repairing_) {
         return State::Unknown; // they need not have looked again
     }
-    for (const LightPart& part : before_) {
+    for (const LightPart* other : before_) {
+        const LightPart& part = *other;
         if (request.probe) {
             if (part.probe_level_ == probe_level_ && part.probes_[request.index].at == probes_[request.index].at) {
                 const Probe& there = part.probes_[request.index];

@@ -8,6 +8,7 @@
 #include "engine/layers/tile_budget.h"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace atrium {
@@ -15,23 +16,31 @@ namespace atrium {
 /// Cells divided as the light asks for. Engine thread; parallel inside.
 class LightPart {
 public:
+    enum class Effort : std::uint8_t {
+        Build,  ///< on a grid all over, or as soft parts start
+        Anew,   ///< the same light where the part shines; elsewhere tiles stay whole
+        Hurried ///< likewise, two levels coarser, and streaks between the samples are not looked for
+    };
     /// All arguments must outlive it. `before` are parts that are done: errors are judged against their light too. `near`
-    /// are the cells that soft parts divide at once: see cells_near_things().
-    LightPart(const LightSheets& sheets, const DirectPart& part, const std::vector<LightPart>& before,
+    /// are the cells that are divided at once where tiles start whole: see cells_near_things() and cells_within_reach().
+    LightPart(const LightSheets& sheets, const DirectPart& part, std::vector<const LightPart*> before,
               const std::vector<LightCell>& near, const DirectMapSettings& settings, TileBudget& budget,
-              const RunContext& context);
+              const RunContext& context, Effort effort = Effort::Build);
 
     /// Samples and divides until all is smooth, as fine as allowed, or the budget is spent; false when asked to stop.
     bool run(double progress_from, double progress_to);
 
     /// Looks again where a change may have changed the light, and divides cells where its edges lie now. Marks sheets whose
-    /// light is new. False when asked to stop.
-    bool repair(const LightChange& change, const RunContext& context, std::vector<std::uint8_t>& changed_sheets);
+    /// light is new. False when asked to stop. In a hurry errors are judged against the light of `all` parts.
+    bool repair(const LightChange& change, std::span<const LightPart* const> all, const RunContext& context,
+                std::vector<std::uint8_t>& changed_sheets);
 
     /// What one source of this part sends to every node, over its brightness. `source`: that source alone, over its
     /// brightness; where it is empty the part has no other. Looked at on the coarsest grid, and closer where the source's
     /// share of the light differs there. Not to be used when `context` asked to stop.
     [[nodiscard]] std::vector<Rgb> light_of(const DirectFunction& source, const Rgb& brightness, const RunContext& context);
+    /// The same with its brightness and for every node, however long it takes: what add_light() can take away again.
+    [[nodiscard]] std::vector<Rgb> all_light_of(const DirectFunction& source, const RunContext& context) const;
     /// Makes that source brighter by `change`, for good: what repairs start from.
     void add_light(const std::vector<Rgb>& of_source, const Rgb& change);
 
@@ -68,6 +77,7 @@ private:
     [[nodiscard]] bool guess_share(const LightNode& node, std::uint32_t step, const std::vector<Rgb>& light,
                                    const Rgb& brightness, Rgb& share) const;
     std::vector<LightCell> first_cells();
+    [[nodiscard]] bool probes(const LightCell& cell) const;
     void divide_near_things(std::vector<LightCell>& fresh);
     void leave_out_dark_sheets(std::vector<LightCell>& fresh) const;
     void ask_for_nodes(unsigned level);
@@ -112,14 +122,16 @@ private:
 
     const LightSheets& sheets_;
     const DirectPart& part_;
-    const std::vector<LightPart>& before_;
+    std::vector<const LightPart*> before_;
+    std::span<const LightPart* const> judged_by_; ///< beside it
     const std::vector<LightCell>& near_;
     const DirectMapSettings& settings_;
     TileBudget& budget_;
     const RunContext* context_; ///< of the call at hand
-    std::vector<float> floor_;  ///< lux, per sheet: errors are judged against at least this
-    unsigned finest_;           ///< level below which this part's cells are not divided
-    unsigned probe_level_;      ///< a probe for each cell of this level at most; soft parts have coarser cells too
+    Effort effort_;
+    std::vector<float> floor_; ///< lux, per sheet: errors are judged against at least this
+    unsigned finest_;          ///< level below which this part's cells are not divided
+    unsigned probe_level_;     ///< a probe for each cell of this level at most; soft parts have coarser cells too
     LightCells cells_;
     std::vector<std::size_t> first_probe_; ///< per sheet; a place for a probe per cell of probe_level_, row by row
     std::vector<Probe> probes_;

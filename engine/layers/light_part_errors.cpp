@@ -138,14 +138,14 @@ float LightPart::off(const LightCell& c, const LightGuess& seen, float dx, float
                        : 0.0F;
 }
 
-// The least light of the parts that are done at a cell's corners, lux.
+// The least light of the parts that it is judged by at a cell's corners, lux.
 float LightPart::other_light(const LightCell& c) const {
     const std::int64_t s = cells_.steps(c.level);
     float sum = 0.0F;
-    for (const LightPart& part : before_) {
+    for (const LightPart* part : judged_by_) {
         float least = std::numeric_limits<float>::infinity();
         for (std::int64_t k = 0; k < 4; ++k) {
-            const LightGuess g = part.cells_.guess(c.sheet, c.x + (k & 1) * s, c.y + (k >> 1) * s);
+            const LightGuess g = part->cells_.guess(c.sheet, c.x + (k & 1) * s, c.y + (k >> 1) * s);
             least = std::min(least, g.known ? g.light : 0.0F);
         }
         sum += least;

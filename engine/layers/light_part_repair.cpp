@@ -360,9 +360,14 @@ std::array<LightCell, 4> LightPart::divide_smoothly(const LightCell& cell) {
     return quarters;
 }
 
-bool LightPart::repair(const LightChange& change, const RunContext& context, std::vector<std::uint8_t>& changed_sheets) {
+bool LightPart::repair(const LightChange& change, std::span<const LightPart* const> all, const RunContext& context,
+                       std::vector<std::uint8_t>& changed_sheets) {
     context_ = &context;
     repairing_ = true;
+    judged_by_ = change.exact ? std::span<const LightPart* const>(before_) : all;
+    if (change.boxes.empty() && !change.exact) {
+        return true;
+    }
     if (part_.soft && cells_.first_level() < probe_level_) {
         divide_around(change);
     }

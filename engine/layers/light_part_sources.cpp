@@ -81,6 +81,19 @@ std::vector<Rgb> LightPart::light_of(const DirectFunction& source, const Rgb& br
     return out;
 }
 
+std::vector<Rgb> LightPart::all_light_of(const DirectFunction& source, const RunContext& context) const {
+    std::vector<Rgb> out(cells_.nodes.size(), Rgb(0.0F));
+    parallel_chunks(out.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
+            const LightNode& n = cells_.nodes[i];
+            if (n.known() && max_component(n.irradiance) > 0.0F) {
+                out[i] = source ? light_of_node(n, source, n.irradiance) : n.irradiance;
+            }
+        }
+    });
+    return out;
+}
+
 void LightPart::add_light(const std::vector<Rgb>& of_source, const Rgb& change) {
     const std::uint32_t first = cells_.steps(cells_.first_level());
     for (std::uint32_t sheet = 0; sheet < first_probe_.size(); ++sheet) { // as the node at their cell's corner

@@ -25,6 +25,10 @@ public:
     /// Grows tiles, those of the greatest errors first, as far as the budget goes (several wishes for a tile: in ascending
     /// order of tiles). Returns the tiles that could not grow, ascending.
     std::vector<std::uint32_t> grow(const std::vector<TileGrowth>& wishes);
+    /// Texels of all tiles.
+    [[nodiscard]] std::size_t samples() const { return samples_; }
+    /// From now on so many texels at most.
+    void allow(std::size_t max_samples) { max_samples_ = max_samples; }
     /// Tiles that once could not grow.
     [[nodiscard]] std::size_t limited() const { return limited_.size(); }
 

@@ -30,6 +30,16 @@ float PlacedLight::distribution(const vec3& away) const {
     return light.kind == Light::Kind::Spot ? spot_falloff(light, glm::dot(away, axis)) : 1.0F;
 }
 
+bool same_but_brightness(const PlacedLight& a, const PlacedLight& b) {
+    Light light = b.light;
+    light.color = a.light.color;
+    light.intensity = a.light.intensity;
+    light.name = a.light.name;
+    light.extras = a.light.extras;
+    light.enabled = a.light.enabled;
+    return light == a.light && a.position == b.position && a.axis == b.axis && a.right == b.right;
+}
+
 std::vector<PlacedLight> placed_lights(const Scene& scene, const dvec3& origin) {
     std::vector<PlacedLight> out;
     for (const NodeId id : scene.in_tree_order()) {

@@ -23,6 +23,9 @@ struct PlacedLight {
     [[nodiscard]] float distribution(const vec3& away) const;
 };
 
+/// All but how bright they are, and names: one is the other dimmed, coloured or switched off.
+bool same_but_brightness(const PlacedLight& a, const PlacedLight& b);
+
 /// The enabled lights of a scene with the world position of engine (0,0,0), in tree order.
 std::vector<PlacedLight> placed_lights(const Scene& scene, const dvec3& origin);
 
@@ -30,7 +33,7 @@ std::vector<PlacedLight> placed_lights(const Scene& scene, const dvec3& origin);
 /// the others: what lies between scatters and absorbs alike in all, but for coloured glass.
 Rgb per_brightness(const Rgb& light, const Rgb& brightness);
 
-/// Immutable but for set_brightness(); safe from any thread.
+/// Immutable but for set_brightness() and place(); safe from any thread.
 class DirectLight {
 public:
     /// Under a sky this looks for the openings that it shines through: see SkyLight.
@@ -42,6 +45,9 @@ public:
     /// Takes over the intensities and colours of `lights` (the same ones as lights(), in their order) and of the sky. What
     /// is dark keeps its place. Not while anybody reads.
     void set_brightness(std::span<const PlacedLight> lights, const Rgb& sky);
+    /// Takes over the lights (as many as lights(), in their order) at other places, in whatever is new about them. Not while
+    /// anybody reads.
+    void place(std::vector<PlacedLight> lights) { lights_ = std::move(lights); }
 
     [[nodiscard]] bool empty() const { return lights_.empty() && sky_.empty(); }
     [[nodiscard]] bool has_sky() const { return !sky_.empty(); }

@@ -18,6 +18,7 @@
 #include "engine/raycast/ray_scene.h"
 #include "engine/raycast/scene_charts.h"
 #include "engine/solver/gi_engine.h"
+#include "engine/solver/lamp_moves.h"
 #include "engine/solver/quality.h"
 #include "engine/solver/reflected_change.h"
 #include "engine/solver/relight.h"
@@ -69,6 +70,7 @@ struct GiEngine::Impl {
         bool relight_owed = false;              ///< likewise, of lamps and colours
         std::vector<std::uint8_t> new_caustics; ///< per surface: its textures do not show its landings' power; or empty
         std::shared_ptr<Relight> relight;       ///< null until lamps or colours change, and once something moves
+        std::unique_ptr<LampMoves> lamps;       ///< null until a lamp moves
         std::vector<float> sky_over_mirrors;    ///< LeafSurroundings::sky; empty where no mirror or lens shows any
         double mean_radiance = 0.0;             ///< as shown
     };
@@ -87,7 +89,7 @@ struct GiEngine::Impl {
         std::vector<DirectPart> parts;
         if (!punctual->lights().empty()) {
             parts.push_back(DirectPart{
-                [&](const vec3& p, const vec3& n) { return punctual->lamps_irradiance(p, n, settings.sun_rays); }, false,
+                [&](const vec3& p, const vec3& n) { return still_lamps().lamps_irradiance(p, n, settings.sun_rays); }, false,
                 true, [this](const vec3& p, float radius, const Box3& box) { return lamp_shafts.touched(p, radius, box); }});
         }
         if (!emitters.empty()) {
@@ -96,11 +98,14 @@ struct GiEngine::Impl {
                 [this](const vec3& p, float radius, const Box3& box) { return emitter_shafts.touched(p, radius, box); }});
         }
         if (mirrors && (!punctual->lights().empty() || !emitters.empty())) {
-            parts.push_back(
-                DirectPart{[&](const vec3& p, const vec3& n) { return over_mirrors(p, n, settings); }, false, true,
-                           [this](const vec3& p, float radius, const Box3& box) {
-                               return mirror_shafts.touched(p, radius, box) || mirror_shafts_before.touched(p, radius, box);
-                           }});
+            parts.push_back(DirectPart{[&](const vec3& p, const vec3& n) {
+                                           return mirrors->irradiance(p, n, settings, &still_lamps(), lamps.get());
+                                       },
+                                       false, true,
+                                       [this](const vec3& p, float radius, const Box3& box) {
+                                           return mirror_shafts.touched(p, radius, box) ||
+                                                  mirror_shafts_before.touched(p, radius, box);
+                                       }});
         }
         if (punctual->has_sky()) {
             parts.push_back(DirectPart{
@@ -109,6 +114,8 @@ struct GiEngine::Impl {
         }
         return parts;
     }
+    // Lamps that have not moved: those that did have a part of their own (LampMoves).
+    [[nodiscard]] const DirectLight& still_lamps() const { return live && live->lamps ? *live->lamps->staying : *punctual; }
     // From where direct light comes, for updates.
     void find_shafts() {
         lamp_shafts = emitter_shafts = mirror_shafts = sky_shafts = {};
@@ -264,19 +271,25 @@ struct GiEngine::Impl {
         return mean_of_maps(e, maps.front, maps.back, e.direct, spread);
     }
 
-    // The mean over a leaf of what maps in the place of `maps` hold.
-    bool mean_of_maps(const Element& e, const std::vector<std::shared_ptr<const LightMap>>& fronts,
-                      const std::vector<std::shared_ptr<const LightMap>>& backs, Rgb& out, double& spread) const {
+    // The flat chart that a leaf lies in; null where there is none, and so no map of its light either.
+    [[nodiscard]] const Chart* chart_of(const Element& e) const {
         if (e.kind != Element::Kind::Patch || charts[e.surface].empty()) {
-            return false;
+            return nullptr;
         }
         const SurfaceCharts& surface = charts[e.surface];
         const Sheet& sheet = hierarchy.sheets[hierarchy.patches[e.patch].sheet];
         const std::uint32_t index = surface.chart_of_triangle[hierarchy.sheet_triangles[sheet.first].triangle];
-        if (index == SurfaceCharts::kNone || !surface.charts[index].planar) {
+        return index != SurfaceCharts::kNone && surface.charts[index].planar ? &surface.charts[index] : nullptr;
+    }
+
+    // The mean over a leaf of what maps in the place of `maps` hold.
+    bool mean_of_maps(const Element& e, const std::vector<std::shared_ptr<const LightMap>>& fronts,
+                      const std::vector<std::shared_ptr<const LightMap>>& backs, Rgb& out, double& spread) const {
+        const Chart* on = chart_of(e);
+        if (on == nullptr) {
             return false;
         }
-        const Chart& chart = surface.charts[index];
+        const Chart& chart = *on;
         const auto& map = e.back ? backs[e.surface] : fronts[e.surface];
         constexpr int kSamples = 32;
         Rgb sum(0.0F);
@@ -296,13 +309,17 @@ struct GiEngine::Impl {
         return true;
     }
 
+    // Of a leaf without a map.
+    [[nodiscard]] static unsigned samples_of(const Element& e, const QualitySettings& quality) {
+        return e.kind == Element::Kind::Patch ? quality.leaf_samples * 2 : quality.leaf_samples;
+    }
     // Mean direct irradiance of a leaf; returns the standard deviation of its samples.
     float light_leaf(std::uint32_t index, const QualitySettings& quality) {
         Element& e = hierarchy.elements[index];
         if (double spread = 0.0; light_from_map(e, spread)) {
             return float(spread);
         }
-        const unsigned most = e.kind == Element::Kind::Patch ? quality.leaf_samples * 2 : quality.leaf_samples;
+        const unsigned most = samples_of(e, quality);
         Rgb sum(0.0F);
         double sum2 = 0.0;
         unsigned n = 0;
@@ -367,6 +384,9 @@ struct GiEngine::Impl {
             if (leaf != Element::kNone) {
                 hierarchy.elements[leaf].caustic += particles->power(l) / hierarchy.elements[leaf].area;
             }
+        }
+        for (std::size_t i = 0; live && i < live->sky_over_mirrors.size(); ++i) { // and the sky in mirrors and lenses
+            hierarchy.elements[live->exchange->leaves()[i]].caustic += kPi * sky_radiance * live->sky_over_mirrors[i];
         }
     }
 

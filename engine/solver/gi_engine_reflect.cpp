@@ -211,6 +211,9 @@ void GiEngine::light_leaves_again(Impl& s, const LightChange& change, const RunC
                 });
             if (reached || live.leaf_looked[leaves[i]] != 0) {
                 (void)s.light_leaf(leaves[i], live.quality);
+                if (live.lamps) {
+                    live.lamps->sampled_leaf(s, leaves[i]);
+                }
                 live.leaf_looked[leaves[i]] = reached ? 1 : 0;
             }
         }

@@ -214,6 +214,9 @@ void GiEngine::show_direct_light(Impl& s, const LightChange& change, const RunCo
     if (context.should_stop()) {
         return;
     }
+    for (std::size_t i = 0; live.lamps && i < looks.size(); ++i) {
+        live.lamps->sampled_vertex(s, looks[i].layer, looks[i].vertex, looks[i].back);
+    }
     if (change.exact) {
         mark(false);
     }
@@ -272,6 +275,15 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     live.untouched = false;
     const std::uint64_t rays_before = s.rays->rays_traced();
     context.progress("ray_scene", 0.0);
+    const auto lamps_moved = LampMoves::follow(s, scene, context);
+    if (!lamps_moved) {
+        return tl::unexpected(lamps_moved.error());
+    }
+    const bool follow_lamps = LampMoves::needed(s, options.settle);
+    if (follow_lamps && live.relight) {
+        live.relight->settle(s);
+        live.relight.reset();
+    }
     const auto relit = Relight::follow(s, scene, context);
     if (!relit) {
         return context.should_stop() ? fail("", "", relit.error().what, "The next update goes on")
@@ -282,10 +294,13 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         return give_up("more than places and colours changed");
     }
     LightChange& change = live.owed;
-    const bool moves = !moved->empty() || !change.boxes.empty();
+    const bool moves = !moved->empty() || !change.boxes.empty() || follow_lamps;
     if (moves && live.relight) {
         live.relight->settle(s);
         live.relight.reset();
+    }
+    if (live.lamps && relit->any && !follow_lamps) {
+        live.lamps->forget();
     }
     const bool looks = moves || (options.settle && !live.displaced.empty());
     change.moved.resize(s.rays->surfaces().size(), 0);
@@ -297,7 +312,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         const RaySurface& surface = s.rays->surfaces()[m.surface];
         const Material& material = s.rays->material(m.surface);
         if (max_component(material.emitted_radiance()) > 0.0F || surface.pane) {
-            return give_up("a lamp or a window moved");
+            return give_up("a shining surface or a window moved");
         }
         if (m.came_or_went && is_specular(material)) {
             return give_up("a mirror, metal or glass came or went");
@@ -330,9 +345,9 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     auto solution = std::make_shared<Solution>(*live.shown);
     UpdateStatistics& report = solution->statistics.update;
     report = {};
-    live.relit = live.relit || relit->any;
+    live.relit = live.relit || relit->any || *lamps_moved > 0;
     report.degraded = !options.settle || live.relit; // reflected light on vertices only follows what leaves say
-    report.sources_changed = relit->sources;
+    report.sources_changed = relit->sources + *lamps_moved;
     report.materials_changed = relit->materials;
 
     context.progress("direct", 0.1);
@@ -342,6 +357,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     std::optional<InAHurry> fewer_rays;
     LightChange look_at = change;
     look_at.exact = options.settle;
+    look_at.anew = follow_lamps ? live.lamps->part : LightChange::kNone;
     if (options.settle) {
         for (const auto& [surface, d] : live.displaced) {
             look_at.boxes.push_back(d.before);
@@ -370,8 +386,19 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     if (moves) {
         cover_vertices(s, context);
     }
+    if (follow_lamps) {
+        live.lamps->light_vertices(s, context);
+    }
+    if (s.particles && moves) {
+        context.progress("particles", 0.4);
+        timer.next("particles");
+    }
+    const auto new_textures = trace_again(s, scene, moves, report, context);
+    if (!new_textures) {
+        return context.should_stop() ? tl::unexpected(new_textures.error()) : give_up(new_textures.error().what);
+    }
     if (live.exchange) {
-        context.progress("gather", 0.5);
+        context.progress("gather", 0.6);
         timer.next("gather");
         if (live.relight && live.displaced.empty()) {
             if (relit->any) {
@@ -381,53 +408,19 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
             if (looks) {
                 light_leaves_again(s, look_at, context);
             }
+            if (follow_lamps) {
+                live.lamps->light_leaves(s, options.settle, context);
+                s.light_leaves_by_particles();
+            }
             reflect_change(s, !options.settle, context);
         }
         if (context.should_stop()) {
             return fail("", "", "stopped before the light had followed", "The next update goes on");
         }
     }
-    ParticleUpdate particles;
-    std::vector<std::uint32_t> new_textures; // surfaces whose caustics are made anew
-    if (s.particles) {
-        std::vector<CausticWish> wishes = caustic_wishes(scene, *s.rays);
-        new_textures = surfaces_with_new_wishes(s.wishes, wishes);
-        s.wishes = std::move(wishes);
-        for (std::uint32_t i = 0; i < live.new_caustics.size(); ++i) {
-            if (live.new_caustics[i] != 0) {
-                new_textures.push_back(i);
-            }
-        }
-    }
-    if (s.particles && moves) {
-        context.progress("particles", 0.6);
-        timer.next("particles");
-        std::vector<std::uint32_t> moved_surfaces;
-        for (std::uint32_t i = 0; i < change.moved.size(); ++i) {
-            if (change.moved[i] != 0) {
-                moved_surfaces.push_back(i);
-            }
-        }
-        s.targets->follow(*s.rays, moved_surfaces);
-        const ParticleScene particle_scene{*s.rays, *s.targets, *s.punctual, s.emitters,
-                                           [&s](const Hit& hit) { return s.mirrors && s.mirrors->carries(hit); }};
-        particles = s.particles->update(particle_scene, change.boxes, moved_surfaces, context);
-        if (!particles.fits) {
-            return give_up("the sources of caustics changed");
-        }
-        if (!particles.complete) {
-            return fail("", "", "stopped before the light had followed", "The next update goes on");
-        }
-        report.particles_traced = particles.particles;
-        report.particles_share = particles.share;
-        report.links_visited = s.particles->links().size();
-        report.links_changed = particles.links;
-        new_textures.insert(new_textures.end(), particles.surfaces.begin(), particles.surfaces.end());
-    }
-    if (s.particles && (moves || !new_textures.empty())) {
+    if (s.particles && (moves || !new_textures->empty())) {
         timer.next("caustics");
-        std::sort(new_textures.begin(), new_textures.end());
-        const CausticReuse reuse{s.caustics, new_textures};
+        const CausticReuse reuse{s.caustics, *new_textures};
         s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse, s.wishes);
     }
 
@@ -438,11 +431,16 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     if (context.should_stop()) {
         return fail("", "", "stopped before the light had followed", "The next update goes on");
     }
-    if (s.particles && (moves || !new_textures.empty())) {
+    if (s.particles && (moves || !new_textures->empty())) {
         attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics);
     }
     change = {};
     live.relight_owed = false;
+    if (follow_lamps) {
+        live.lamps->owed = false;
+        live.lamps->exact = options.settle;
+        live.mean_radiance = live.lamps->mean_radiance(s);
+    }
     live.new_caustics.clear();
     live.new_maps.clear();
     if (options.settle) {
@@ -464,7 +462,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
                   [&](const CausticRecord& r) { return scene.nodes.find(r.node) == nullptr || !scene.shown(r.node); });
     solution->landings = options.keep_landings ? landing_places(*s.rays, s.particles.get()) : nullptr;
     solution->mean_radiance = live.relight ? live.relight->mean_radiance * live.relight->brightening(s) : live.mean_radiance;
-    if (live.relight && live.exchange) {
+    if ((live.relight || live.lamps) && live.exchange) {
         s.energy_balance(*live.exchange, solution->statistics);
     }
     solution->statistics.converged = false;

@@ -14,36 +14,27 @@ namespace {
 Rgb brightness(const PlacedLight& l) { return l.light.color * l.light.intensity; }
 bool lit(const Rgb& light) { return max_component(light) > 0.0F; }
 
-// All but brightness.
-bool same_lamp(const PlacedLight& a, const PlacedLight& b) {
-    Light light = b.light;
-    light.color = a.light.color;
-    light.intensity = a.light.intensity;
-    light.name = a.light.name;
-    light.extras = a.light.extras;
-    light.enabled = a.light.enabled;
-    return light == a.light && a.position == b.position && a.axis == b.axis && a.right == b.right;
-}
-
 } // namespace
 
 GiEngine::Relight::Relight(Impl& s, const Scene& scene)
     : maps(s.maps), layers(s.live->layers.surfaces), mean_radiance(s.live->mean_radiance) {
-    // Lamps that share a light are dimmed together.
-    std::map<LightId, std::size_t> of_light;
+    // Lamps that share a light are dimmed together, where their light is in the same part.
+    std::map<std::pair<LightId, bool>, std::size_t> of_light;
     const std::vector<PlacedLight>& lights = s.punctual->lights();
     for (std::uint32_t i = 0; i < lights.size(); ++i) {
         const Node* node = scene.nodes.find(lights[i].node);
         const LightId id = node != nullptr ? node->light : LightId{};
-        const auto known = of_light.find(id);
+        const bool by_itself = s.live->lamps && s.live->lamps->has(i);
+        const auto known = of_light.find({id, by_itself});
         if (id && known != of_light.end() && sources[known->second].base == brightness(lights[i])) {
             sources[known->second].lights.push_back(i);
             continue;
         }
-        of_light[id] = sources.size();
+        of_light[{id, by_itself}] = sources.size();
         Source source;
         source.kind = Source::Kind::Lamps;
         source.lights = {i};
+        source.moved = by_itself;
         source.base = source.now = brightness(lights[i]);
         sources.push_back(std::move(source));
     }
@@ -103,7 +94,7 @@ bool GiEngine::Relight::changed(const Impl& s, const Scene& scene) {
     std::size_t next = 0;
     for (const PlacedLight& light : s.punctual->lights()) {
         if (lit(brightness(light))) {
-            if (next == now.size() || now[next].node != light.node || !same_lamp(light, now[next]) ||
+            if (next == now.size() || now[next].node != light.node || !same_but_brightness(light, now[next]) ||
                 brightness(light) != brightness(now[next])) {
                 return true;
             }
@@ -133,8 +124,8 @@ std::string GiEngine::Relight::find_change(const Impl& s, const Scene& scene, st
             light.light.intensity = 0.0F; // switched off, hidden or deleted
             continue;
         }
-        if (!same_lamp(light, *at)) {
-            return "a lamp moved, or is of another kind";
+        if (!same_but_brightness(light, *at)) {
+            return "a lamp moved where no light is kept";
         }
         light.light = at->light;
         ++found;
@@ -157,6 +148,7 @@ std::string GiEngine::Relight::find_change(const Impl& s, const Scene& scene, st
                 Source alone;
                 alone.kind = Source::Kind::Lamps;
                 alone.base = source.base;
+                alone.moved = source.moved;
                 const std::vector<std::uint32_t> all = source.lights;
                 source = alone;
                 source.lights = {all.front()};
@@ -240,6 +232,9 @@ Result<GiEngine::Relight::Change> GiEngine::Relight::follow(Impl& s, const Scene
     }
     live.relight_owed = true;
     s.punctual->set_brightness(lights, scene.environment.sky_radiance);
+    if (live.lamps) {
+        live.lamps->take_brightness(*s.punctual);
+    }
     s.sky_radiance = scene.environment.sky_radiance;
     self.recolor(s, *materials);
     self.show_direct(s);

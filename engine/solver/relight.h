@@ -35,6 +35,7 @@ struct GiEngine::Relight {
         enum class Kind : std::uint8_t { Lamps, Emitter, Sky };
         Kind kind = Kind::Sky;
         std::vector<std::uint32_t> lights; ///< Lamps: into DirectLight::lights()
+        bool moved = false;                ///< Lamps: their direct light is in the part of LampMoves
         MaterialId material;               ///< Emitter
         Rgb base{0.0F};                    ///< candela, lux or cd/m2
         Rgb now{0.0F};

@@ -72,10 +72,11 @@ bool GiEngine::Relight::learn(Impl& s, Source& source, const RunContext& context
     };
     // Parts in the order of direct_parts(). Where a source is alone in one, what is there is its own.
     std::vector<PartSource> parts;
-    const auto count = [&](Source::Kind kind) {
-        return std::count_if(sources.begin(), sources.end(), [&](const Source& x) { return x.kind == kind; });
+    const auto count = [&](Source::Kind kind, bool moved) {
+        return std::count_if(sources.begin(), sources.end(),
+                             [&](const Source& x) { return x.kind == kind && x.moved == moved; });
     };
-    const auto lamps_there = count(Source::Kind::Lamps), emitters_there = count(Source::Kind::Emitter);
+    const auto lamps_there = count(Source::Kind::Lamps, false), emitters_there = count(Source::Kind::Emitter, false);
     std::size_t part = 0;
     const auto add = [&](bool exists, bool in, bool alone, const DirectFunction& light) {
         if (exists && in) {
@@ -83,10 +84,14 @@ bool GiEngine::Relight::learn(Impl& s, Source& source, const RunContext& context
         }
         part += exists ? 1 : 0;
     };
-    add(lamps_part, source.kind == Source::Kind::Lamps, lamps_there == 1, straight);
+    add(lamps_part, source.kind == Source::Kind::Lamps && !source.moved, lamps_there == 1, straight);
     add(emitters_part, source.kind == Source::Kind::Emitter, emitters_there == 1, straight);
-    add(mirrors_part, source.kind != Source::Kind::Sky, lamps_there + emitters_there == 1, by_mirrors);
+    add(mirrors_part, source.kind != Source::Kind::Sky && !source.moved, lamps_there + emitters_there == 1, by_mirrors);
     add(sky_part, source.kind == Source::Kind::Sky, true, straight);
+    if (source.moved) {
+        const bool alone = count(Source::Kind::Lamps, true) == 1;
+        parts.push_back({s.live->lamps->part, alone ? DirectFunction{} : both});
+    }
     if (s.live->maps) {
         auto found = s.live->maps->light_of(parts, source.base, context);
         if (!found) {

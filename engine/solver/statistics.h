@@ -17,7 +17,7 @@ struct UpdateStatistics {
     std::uint64_t links_visited = 0;     ///< looked at to find what the edit touches
     std::uint64_t links_changed = 0;     ///< computed again, made or removed
     std::uint64_t octree_bytes = 0;      ///< of the tree that tells which particles pass where
-    std::uint64_t sources_changed = 0;   ///< lamps, emitting materials and skies that were dimmed or coloured
+    std::uint64_t sources_changed = 0;   ///< lamps, emitting materials and skies that were dimmed, coloured or moved
     std::uint64_t materials_changed = 0; ///< whose colour or emission is another
     friend bool operator==(const UpdateStatistics&, const UpdateStatistics&) = default;
 };

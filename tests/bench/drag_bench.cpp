@@ -13,6 +13,8 @@ struct Arguments {
     std::string file, node;
     std::string quality = "normal";
     std::vector<double> by{0.03, 0.0, 0.02};
+    std::vector<double> lamp;
+    bool night = false;
     int steps = 12;
     std::size_t points = 4096;
 };
@@ -27,7 +29,24 @@ int run(const Arguments& a) {
     if (!loaded) {
         return fail_with(loaded.error().message());
     }
-    const Scene& scene = loaded->scene;
+    Scene& scene = loaded->scene;
+    if (a.night) {
+        scene.environment.sky_radiance = Rgb(0.0F);
+        for (const LightId id : scene.lights.keys()) {
+            Light& light = *scene.lights.find(id);
+            light.enabled = light.enabled && light.kind != Light::Kind::Directional;
+        }
+    }
+    if (a.lamp.size() == 3) {
+        constexpr float kLumen = 800.0F;
+        Light light;
+        light.intensity = kLumen / (4.0F * kPi);
+        Node node;
+        node.name = a.node;
+        node.light = scene.lights.insert(light);
+        node.transform.translation = dvec3(a.lamp[0], a.lamp[1], a.lamp[2]);
+        scene.roots.push_back(scene.nodes.insert(node));
+    }
     NodeId moving;
     for (const NodeId id : scene.in_tree_order()) {
         if (!moving && scene.nodes.find(id)->name == a.node) {
@@ -78,6 +97,9 @@ int main(int argc, char** argv) {
     app.add_option("node", a.node, "name of the node that moves")->required();
     app.add_option("--quality", a.quality)->check(CLI::IsMember({"draft", "normal", "fine"}));
     app.add_option("--by", a.by, "metres per step, in the parent's space")->expected(3);
+    app.add_option("--lamp", a.lamp, "first adds a point light of 800 lm there, of the name of the node that moves")
+        ->expected(3);
+    app.add_flag("--night", a.night, "without sun and sky");
     app.add_option("--steps", a.steps);
     app.add_option("--points", a.points, "where the light is compared");
     CLI11_PARSE(app, argc, argv);

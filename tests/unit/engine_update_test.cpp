@@ -132,7 +132,7 @@ TEST(EngineUpdate, SaysWhenOnlyASolutionHelps) {
         EXPECT_TRUE(room.solve());
         EXPECT_TRUE(room.engine.can_update());
     };
-    refuses([](Room& r) { r.scene.nodes.find(r.point)->transform.translation.x += 0.1; });
+    refuses([](Room& r) { add_point_light(r.scene, {3, 2, 3}, 500.0); });
     refuses([](Room& r) { r.scene.nodes.find(r.lamp)->transform.translation.x += 0.1; });
     refuses([](Room& r) { r.scene.nodes.find(r.box)->transform.scale = dvec3(2.0); });
     refuses([](Room& r) { add_shape(r.scene, "ball", Sphere{0.2F}, {3, 1, 3}, add_material(r.scene, 0.5F)); });

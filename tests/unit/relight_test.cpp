@@ -208,7 +208,7 @@ std::shared_ptr<const PhotometricWeb> washer(float peak) {
     return std::make_shared<const PhotometricWeb>(std::move(data));
 }
 
-// Dimmed and coloured as any lamp; given another distribution it is another lamp.
+// Dimmed and coloured as any lamp.
 TEST(Relight, PhotometricLamps) {
     const auto with_washer = [](Room& r) {
         set_photometry(r.light_of(r.spot), washer(900.0F));
@@ -240,22 +240,6 @@ TEST(Relight, PhotometricLamps) {
     EXPECT_LT(error, 0.1 * stale + chance);
     room.scene = was;
     expect_same(*room.update(), *before);
-
-    const auto refused = [&](const std::function<void(Room&)>& edit) {
-        Room other(false, false);
-        with_washer(other);
-        ASSERT_TRUE(other.solve());
-        edit(other);
-        const auto result = other.engine.update(other.scene, other.options, {});
-        ASSERT_FALSE(result);
-        EXPECT_NE(result.error().message().find("a lamp moved"), std::string::npos) << result.error().message();
-    };
-    refused([](Room& r) { set_photometry(r.light_of(r.spot), washer(800.0F)); });
-    refused([](Room& r) { remove_photometry(r.light_of(r.spot)); });
-    refused([](Room& r) { // about its own axis
-        dquat& turn = r.scene.nodes.find(r.spot)->transform.rotation;
-        turn = turn * glm::angleAxis(0.5, dvec3(0, 0, 1));
-    });
 }
 
 TEST(Relight, OneFactorForAllLightTracesNothing) {
@@ -372,8 +356,6 @@ TEST(Relight, SaysWhatItCannotFollow) {
         EXPECT_NE(updated.error().message().find(why), std::string::npos) << updated.error().message();
         EXPECT_FALSE(room.engine.can_update());
     };
-    refuses("a lamp moved", [](Room& r) { r.light_of(r.spot).outer_cone *= 0.5F; });
-    refuses("a lamp moved", [](Room& r) { r.scene.nodes.find(r.spot)->transform.translation.x += 0.1; });
     refuses("a lamp came on", [](Room& r) { add_point_light(r.scene, {2, 2, 2}, 100.0); });
     refuses("the sky began to shine", [](Room& r) { r.scene.environment.sky_radiance = Rgb(10.0F); });
     refuses("began to shine", [](Room& r) { r.material(r.cube).emissive_color = Rgb(10.0F); });
