@@ -83,6 +83,7 @@ private:
                 corners += std::min(rays_.surfaces()[s].mesh->positions.size(), 3 * rays_.surfaces()[s].triangles.size());
             }
             PointTable weld(corners);
+            mesh.vertices.reserve(corners); // moving millions of them takes longer than a stop may
             for (const std::uint32_t s : mesh.surfaces) {
                 add_surface(mesh, s, weld);
             }
