@@ -38,7 +38,8 @@ private:
 
 } // namespace
 
-bool is_closed(const MeshData& mesh) {
+bool is_closed(const MeshData& mesh, const RunContext& context) {
+    StopCheck stop(context, kMeshStride);
     const QuietOpenMesh quiet;
     HalfEdgeMesh half_edges;
     std::unordered_map<vec3, HalfEdgeMesh::VertexHandle, PositionHash> welded;
@@ -51,6 +52,9 @@ bool is_closed(const MeshData& mesh) {
         return it->second;
     };
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        if (stop()) {
+            return false;
+        }
         const auto a = vertex(mesh.indices[i]);
         const auto b = vertex(mesh.indices[i + 1]);
         const auto c = vertex(mesh.indices[i + 2]);

@@ -21,8 +21,9 @@ constexpr std::size_t kDirections = 180; // half degrees of a right angle
 
 class Divider {
 public:
-    Divider(std::span<const vec3> positions, std::span<const uvec3> triangles, const PlanarSettings& settings)
-        : settings_(settings) {
+    Divider(std::span<const vec3> positions, std::span<const uvec3> triangles, const PlanarSettings& settings,
+            const RunContext& context)
+        : settings_(settings), context_(context), stop_(context, kMeshStride) {
         Box3 box;
         float largest = 0.0F;
         for (const uvec3& t : triangles) {
@@ -31,16 +32,26 @@ public:
                 largest = std::max(largest, max_component(glm::abs(positions[t[k]])));
             }
         }
-        mesh_ = weld(positions, triangles, kWeldTolerance * box.diagonal());
-        rings_ = edge_rings(mesh_);
+        mesh_ = weld(positions, triangles, kWeldTolerance * box.diagonal(), context);
+        if (context.should_stop()) {
+            return;
+        }
+        rings_ = edge_rings(mesh_, context);
         tolerance_ = std::max(settings.flatness, kRounding * largest);
     }
 
     PlanarRegions run() {
-        measure();
-        grow_all();
-        merge_coplanar();
-        return collect();
+        for (const auto step : {&Divider::measure, &Divider::grow_all, &Divider::merge_coplanar}) {
+            if (context_.should_stop()) {
+                return {};
+            }
+            (this->*step)();
+        }
+        PlanarRegions out;
+        if (!context_.should_stop()) {
+            out = collect();
+        }
+        return context_.should_stop() ? PlanarRegions{} : std::move(out);
     }
 
 private:
@@ -52,7 +63,7 @@ private:
         const std::size_t n = mesh_.triangles.size();
         normal_.resize(n);
         area_.resize(n);
-        for (std::uint32_t t = 0; t < n; ++t) {
+        for (std::uint32_t t = 0; t < n && !stop_(); ++t) {
             const vec3 cross = glm::cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
             const float length = glm::length(cross);
             area_[t] = 0.5F * length;
@@ -79,7 +90,7 @@ private:
         region_of_.assign(area_.size(), kNone);
         members_.reserve(area_.size());
         std::vector<std::uint32_t> order = seeds();
-        for (std::size_t i = 0; i < order.size(); ++i) {
+        for (std::size_t i = 0; i < order.size() && !stop_(); ++i) {
             if (region_of_[order[i]] == kNone && area_[order[i]] > 0.0F) {
                 grow(order[i], order);
             }
@@ -110,7 +121,7 @@ private:
             }
         };
         add(seed);
-        for (std::size_t at = region.first; at < members_.size(); ++at) {
+        for (std::size_t at = region.first; at < members_.size() && !stop_(); ++at) {
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const std::uint32_t h = 3 * members_[at] + k;
                 std::uint32_t g = rings_[h];
@@ -175,7 +186,7 @@ private:
             std::sort(begin, end, [](const Key& a, const Key& b) {
                 return a.distance != b.distance ? a.distance < b.distance : a.region < b.region;
             });
-            for (auto k = begin; k != end; ++k) {
+            for (auto k = begin; k != end && !stop_(); ++k) {
                 group.push_back(k->region);
                 if (k + 1 == end || (k + 1)->distance - k->distance > double(tolerance_)) {
                     merge_group(group);
@@ -217,7 +228,7 @@ private:
         }
         const vec3 centre(regions_[host].centroid);
         const vec3 normal(regions_[host].normal);
-        for (std::uint32_t i = 0; i < regions_[r].count; ++i) {
+        for (std::uint32_t i = 0; i < regions_[r].count && !stop_(); ++i) {
             for (std::uint32_t k = 0; k < 3; ++k) {
                 const vec3 p = corner(members_[regions_[r].first + i], k) - centre;
                 if (std::abs(glm::dot(p, normal)) > tolerance_) {
@@ -299,7 +310,7 @@ private:
         std::array<float, kDirections> weight{};
         std::array<float, kDirections> longest{};
         std::array<vec3, kDirections> along{};
-        for (std::uint32_t i = region.first; i < region.first + region.count; ++i) {
+        for (std::uint32_t i = region.first; i < region.first + region.count && !stop_(); ++i) {
             for (std::uint32_t k = 0; k < 3; ++k) {
                 if (inner_edge(3 * members_[i] + k)) {
                     continue;
@@ -369,13 +380,15 @@ private:
             }
         }
         regions_ = std::move(out);
-        for (std::uint32_t r = 0; r < regions_.size(); ++r) {
+        for (std::uint32_t r = 0; r < regions_.size() && !stop_(); ++r) {
             regions_[r].axis = main_direction(r);
         }
         return {std::move(regions_), std::move(members_)};
     }
 
     PlanarSettings settings_;
+    const RunContext& context_;
+    mutable StopCheck stop_;
     WeldedTriangles mesh_;
     std::vector<std::uint32_t> rings_;
     float tolerance_ = 0.0F;
@@ -390,8 +403,8 @@ private:
 } // namespace
 
 PlanarRegions planar_regions(std::span<const vec3> positions, std::span<const uvec3> triangles,
-                             const PlanarSettings& settings) {
-    return Divider(positions, triangles, settings).run();
+                             const PlanarSettings& settings, const RunContext& context) {
+    return Divider(positions, triangles, settings, context).run();
 }
 
 } // namespace atrium

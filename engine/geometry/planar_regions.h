@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/base/math.h"
+#include "engine/base/run_context.h"
 
 #include <cstdint>
 #include <span>
@@ -35,7 +36,8 @@ struct PlanarRegions {
 /// within two millionths of the extents, whatever number of triangles meets there; and pieces of one plane whose rectangles
 /// touch or overlap, which finds neighbours without a whole edge in common (T-vertices), and nested pieces, which share the
 /// rectangle at no cost. Triangles without area are in no piece. Deterministic, O(n log n).
+/// Nothing when stopped.
 PlanarRegions planar_regions(std::span<const vec3> positions, std::span<const uvec3> triangles,
-                             const PlanarSettings& settings);
+                             const PlanarSettings& settings, const RunContext& context = {});
 
 } // namespace atrium

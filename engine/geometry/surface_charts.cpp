@@ -23,8 +23,9 @@ struct Piece {
 class Assembler {
 public:
     Assembler(std::span<const vec3> positions, std::span<const uvec3> triangles, std::span<const vec2> domain,
-              const ChartSettings& settings)
-        : positions_(positions), triangles_(triangles), domain_(domain), settings_(settings) {
+              const ChartSettings& settings, const RunContext& context)
+        : positions_(positions), triangles_(triangles), domain_(domain), settings_(settings), context_(context),
+          stop_(context, kMeshStride) {
         out_.tile_edge = settings.tile_edge;
         out_.chart_of_triangle.assign(triangles.size(), kNone);
         out_.uv.resize(triangles.size()); // metres in the piece's rectangle until it is placed
@@ -33,7 +34,7 @@ public:
     SurfaceCharts run() {
         std::vector<std::uint32_t> flat;
         std::vector<std::uint32_t> curved;
-        for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+        for (std::uint32_t t = 0; t < triangles_.size() && !stop_(); ++t) {
             (on_curved_side(t) ? curved : flat).push_back(t);
         }
         if (!curved.empty()) {
@@ -41,6 +42,9 @@ public:
         }
         if (!flat.empty()) {
             add_planar(flat);
+        }
+        if (context_.should_stop()) {
+            return {};
         }
         drop_smallest();
         pack();
@@ -71,8 +75,11 @@ private:
             }
         }
         const std::span<const uvec3> given = some.empty() ? triangles_ : std::span<const uvec3>(some);
-        const PlanarRegions divided = planar_regions(positions_, given, {settings_.flatness});
+        const PlanarRegions divided = planar_regions(positions_, given, {settings_.flatness}, context_);
         for (const PlanarRegion& region : divided.regions) {
+            if (stop_()) {
+                return;
+            }
             add_region(region, std::span(divided.members).subspan(region.first, region.count), flat);
         }
     }
@@ -86,6 +93,9 @@ private:
         vec2 high(-std::numeric_limits<float>::infinity());
         const vec3 centre(region.centroid);
         for (const std::uint32_t m : members) {
+            if (stop_()) {
+                return;
+            }
             const uvec3& i = triangles_[flat[m]];
             for (int k = 0; k < 3; ++k) {
                 const vec3 p = positions_[i[k]] - centre;
@@ -231,6 +241,8 @@ private:
     std::span<const uvec3> triangles_;
     std::span<const vec2> domain_;
     ChartSettings settings_;
+    const RunContext& context_;
+    StopCheck stop_;
     SurfaceCharts out_;
     std::vector<Piece> pieces_;
 };
@@ -238,9 +250,9 @@ private:
 } // namespace
 
 SurfaceCharts build_charts(std::span<const vec3> positions, std::span<const uvec3> triangles, std::span<const vec2> domain,
-                           const ChartSettings& settings) {
+                           const ChartSettings& settings, const RunContext& context) {
     ATRIUM_CHECK(domain.empty() || domain.size() == positions.size());
-    return Assembler(positions, triangles, domain, settings).run();
+    return Assembler(positions, triangles, domain, settings, context).run();
 }
 
 std::vector<vec2> curved_domain(const Geometry& geometry, const MeshData& mesh) {

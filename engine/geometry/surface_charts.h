@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/base/math.h"
+#include "engine/base/run_context.h"
 #include "engine/geometry/primitives.h"
 
 #include <array>
@@ -56,9 +57,9 @@ struct SurfaceCharts {
 /// coordinates, which make one curved chart of all triangles that have them (metres from its largest extents); negative
 /// coordinates mark the flat ends, which become planar charts. Rectangles are packed into a roughly square space of at most
 /// 65535 tiles: a surface that needs more gets larger tiles (twice, four times ...), one of very many pieces loses the
-/// smallest. Deterministic; O(n log n).
+/// smallest. Deterministic; O(n log n). Nothing when stopped.
 SurfaceCharts build_charts(std::span<const vec3> positions, std::span<const uvec3> triangles, std::span<const vec2> domain,
-                           const ChartSettings& settings);
+                           const ChartSettings& settings, const RunContext& context = {});
 
 /// Domain coordinates for build_charts() of a tessellated primitive, one per vertex of `mesh`: those of the rolled-out side
 /// of a sphere, cylinder or cone (u around, v along the axis; no triangle goes over the seam), (-1, -1) on flat ends. Empty

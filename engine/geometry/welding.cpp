@@ -67,7 +67,9 @@ private:
 
 } // namespace
 
-WeldedTriangles weld(std::span<const vec3> positions, std::span<const uvec3> triangles, float tolerance) {
+WeldedTriangles weld(std::span<const vec3> positions, std::span<const uvec3> triangles, float tolerance,
+                     const RunContext& context) {
+    StopCheck stop(context, kMeshStride);
     WeldedTriangles out;
     out.triangles.resize(triangles.size());
     // A part of a large mesh uses few of its positions: they are then not even looked at.
@@ -76,7 +78,7 @@ WeldedTriangles weld(std::span<const vec3> positions, std::span<const uvec3> tri
     const std::size_t most = std::min(known ? positions.size() : 3 * triangles.size(), 3 * triangles.size());
     PointTable table(std::max(tolerance, std::numeric_limits<float>::min() * 1e6F), most);
     out.points.reserve(most);
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t t = 0; t < triangles.size() && !stop(); ++t) {
         for (int k = 0; k < 3; ++k) {
             const std::uint32_t i = triangles[t][k];
             std::uint32_t point = known ? welded[i] : kNone;
@@ -92,7 +94,8 @@ WeldedTriangles weld(std::span<const vec3> positions, std::span<const uvec3> tri
     return out;
 }
 
-std::vector<std::uint32_t> edge_rings(const WeldedTriangles& mesh) {
+std::vector<std::uint32_t> edge_rings(const WeldedTriangles& mesh, const RunContext& context) {
+    StopCheck stop(context, kMeshStride);
     const std::size_t count = 3 * mesh.triangles.size();
     // Half-edges sorted by lower end (counting), then by upper end within the few that share it.
     std::vector<std::uint32_t> first(mesh.points.size() + 1, 0);
@@ -102,7 +105,7 @@ std::vector<std::uint32_t> edge_rings(const WeldedTriangles& mesh) {
         const std::uint32_t b = t[int((h % 3 + 1) % 3)];
         return std::pair(std::min(a, b), std::max(a, b));
     };
-    for (std::size_t h = 0; h < count; ++h) {
+    for (std::size_t h = 0; h < count && !stop(); ++h) {
         ++first[ends(h).first + 1];
     }
     for (std::size_t i = 1; i < first.size(); ++i) {
@@ -115,11 +118,14 @@ std::vector<std::uint32_t> edge_rings(const WeldedTriangles& mesh) {
     std::vector<End> sorted(count);
     std::vector<std::uint32_t> next(first.begin(), first.end() - (first.empty() ? 0 : 1));
     for (std::size_t h = 0; h < count; ++h) {
+        if (stop()) {
+            return {};
+        }
         const auto [a, b] = ends(h);
         sorted[next[a]++] = {b, std::uint32_t(h)};
     }
     std::vector<std::uint32_t> ring(count);
-    for (std::size_t i = 0; i + 1 < first.size(); ++i) {
+    for (std::size_t i = 0; i + 1 < first.size() && !stop(); ++i) {
         const auto begin = sorted.begin() + first[i];
         const auto end = sorted.begin() + first[i + 1];
         std::sort(begin, end, [](const End& a, const End& b) {

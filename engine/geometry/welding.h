@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/base/math.h"
+#include "engine/base/run_context.h"
 
 #include <cstdint>
 #include <span>
@@ -15,10 +16,12 @@ struct WeldedTriangles {
     std::vector<vec3> points;
     std::vector<uvec3> triangles; ///< one per input triangle, in order
 };
-WeldedTriangles weld(std::span<const vec3> positions, std::span<const uvec3> triangles, float tolerance);
+/// What it returns when stopped is of no use; the same holds for edge_rings().
+WeldedTriangles weld(std::span<const vec3> positions, std::span<const uvec3> triangles, float tolerance,
+                     const RunContext& context = {});
 
 /// For every half-edge 3 t + k (corner k to corner k + 1 of triangle t) the next one on the same edge, either way round, in
 /// a ring; itself where nothing else has that edge. Edges that three or more triangles share are rings of that length.
-std::vector<std::uint32_t> edge_rings(const WeldedTriangles& mesh);
+std::vector<std::uint32_t> edge_rings(const WeldedTriangles& mesh, const RunContext& context = {});
 
 } // namespace atrium

@@ -4,6 +4,7 @@
 #include "engine/layers/covered_points.h"
 #include "engine/layers/light_smoothing.h"
 #include "engine/layers/node_mesh.h"
+#include "engine/layers/point_table.h"
 #include "engine/optics/specular.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 namespace atrium {
 namespace {
 
+constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 constexpr float kPullIn =
     0.25F; // of the shortest edge: how far a sample is moved off its vertex towards the triangles' inside
 
@@ -20,12 +22,16 @@ class LayerBuild {
 public:
     LayerBuild(const RayScene& rays, const LightField& field, const LightMaps& maps, const LayerSettings& settings,
                const std::function<bool(std::uint32_t)>& back_lit, const RunContext& context)
-        : rays_(rays), field_(field), maps_(maps), settings_(settings), back_lit_(back_lit), context_(context) {}
+        : rays_(rays), field_(field), maps_(maps), settings_(settings), back_lit_(back_lit), context_(context),
+          stop_(context, kMeshStride) {}
 
     LayerSet run(double from, double to) {
         collect();
         for (NodeMesh& mesh : meshes_) {
             split_long_edges(mesh);
+        }
+        if (context_.should_stop()) {
+            return {};
         }
         std::vector<Request> all;
         for (std::size_t m = 0; m < meshes_.size(); ++m) {
@@ -45,8 +51,14 @@ public:
             sample_reflected_anew();
             complete = !context_.should_stop();
         }
+        if (!complete) {
+            return {};
+        }
         LayerSet out = finish();
-        out.complete = complete;
+        if (context_.should_stop()) {
+            return {};
+        }
+        out.complete = true;
         return out;
     }
 
@@ -66,7 +78,12 @@ private:
             meshes_[it->second].surfaces.push_back(s);
         }
         for (NodeMesh& mesh : meshes_) {
-            std::map<std::array<float, 3>, std::uint32_t> weld;
+            std::size_t corners = 0;
+            for (const std::uint32_t s : mesh.surfaces) {
+                corners += std::min(rays_.surfaces()[s].mesh->positions.size(), 3 * rays_.surfaces()[s].triangles.size());
+            }
+            PointTable weld(corners);
+            mesh.vertices.reserve(corners); // moving millions of them takes longer than a stop may
             for (const std::uint32_t s : mesh.surfaces) {
                 add_surface(mesh, s, weld);
             }
@@ -74,23 +91,23 @@ private:
         }
     }
 
-    void add_surface(NodeMesh& mesh, std::uint32_t s, std::map<std::array<float, 3>, std::uint32_t>& weld) {
+    void add_surface(NodeMesh& mesh, std::uint32_t s, PointTable& weld) {
         const RaySurface& surface = rays_.surfaces()[s];
         const MeshData& data = *surface.mesh;
         const bool back = surface.back_side && back_lit_(s);
         const bool unlit = shows_no_irradiance(rays_.material(s));
         // Flat-shaded files: triangles of one plane share their vertices all the same, so each is lit once.
-        std::map<std::array<std::int32_t, 5>, std::uint32_t> copied;
-        const auto copy_key = [&](std::uint32_t v, const vec3& face_normal,
-                                  std::uint32_t chart) -> std::array<std::int32_t, 5> {
+        CopyTable copied(std::min(data.positions.size(), 3 * surface.triangles.size()));
+        const auto first_vertex = std::uint32_t(mesh.vertices.size()); // copies are numbered from there
+        const auto copy_key = [&](std::uint32_t v, const vec3& face_normal, std::uint32_t chart) -> CopyKey {
             if (!data.normals.empty()) {
-                return {std::int32_t(v), 0, 0, 0, std::int32_t(chart)};
+                return {v, 0, 0, 0, chart};
             }
-            const vec3 q = glm::round(face_normal * 2000.0F);
-            return {std::int32_t(v), std::int32_t(q.x), std::int32_t(q.y), std::int32_t(q.z), std::int32_t(chart)};
+            const ivec3 q(glm::round(face_normal * 2000.0F));
+            return {v, std::uint32_t(q.x), std::uint32_t(q.y), std::uint32_t(q.z), chart};
         };
         const SurfaceCharts* charts = maps_.charts.empty() || maps_.charts[s].empty() ? nullptr : &maps_.charts[s];
-        for (std::size_t index = 0; index < surface.triangles.size(); ++index) {
+        for (std::size_t index = 0; index < surface.triangles.size() && !stop_(); ++index) {
             const uvec3& t = surface.triangles[index];
             const std::uint32_t chart = charts != nullptr ? charts->chart_of_triangle[index] : SurfaceCharts::kNone;
             const auto& p = *surface.positions;
@@ -99,9 +116,9 @@ private:
             out.surface = s;
             for (int k = 0; k < 3; ++k) {
                 const std::uint32_t v = t[k];
-                const auto key_of_copy = copy_key(v, face_normal, chart);
-                if (const auto it = copied.find(key_of_copy); it != copied.end()) {
-                    out.v[std::size_t(k)] = it->second;
+                const auto [copy, fresh] = copied.insert(copy_key(v, face_normal, chart));
+                out.v[std::size_t(k)] = first_vertex + copy;
+                if (!fresh) {
                     continue;
                 }
                 LightVertex vertex;
@@ -131,11 +148,8 @@ private:
                 vertex.uv0 = data.texcoords0.empty() ? vec2(0.0F) : data.texcoords0[v];
                 vertex.uv1 = data.texcoords1.empty() ? vec2(0.0F) : data.texcoords1[v];
                 vertex.color = data.colors.empty() ? vec3(1.0F) : data.colors[v];
-                const vec3 key = vertex.local + vec3(0.0F);
-                vertex.weld = weld.try_emplace({key.x, key.y, key.z}, std::uint32_t(weld.size())).first->second;
-                out.v[std::size_t(k)] = std::uint32_t(mesh.vertices.size());
+                vertex.weld = weld.insert(vertex.local + vec3(0.0F)).first; // -0 becomes 0
                 mesh.vertices.push_back(vertex);
-                copied[key_of_copy] = out.v[std::size_t(k)];
             }
             add_triangle(mesh, out);
         }
@@ -145,6 +159,9 @@ private:
         for (int level = 0; level < 16 && added_ < settings_.max_vertices; ++level) {
             SplitSet split;
             for (const MeshTriangle& t : mesh.triangles) {
+                if (stop_()) {
+                    return;
+                }
                 for (std::size_t k = 0; k < 3; ++k) {
                     const std::uint32_t a = t.v[k], b = t.v[(k + 1) % 3];
                     if (edge_length(mesh, a, b) > settings_.base_edge) {
@@ -157,9 +174,9 @@ private:
             if (split.empty()) {
                 break;
             }
-            close_split(mesh, split);
+            close_split(mesh, split, stop_);
             Middles middles;
-            added_ += cut(mesh, split, middles);
+            added_ += cut(mesh, split, middles, stop_);
         }
         for (MeshTriangle& t : mesh.triangles) {
             t.open = true;
@@ -311,6 +328,10 @@ private:
             NodeMesh& mesh = meshes_[m];
             std::unordered_map<std::uint64_t, std::size_t, EdgeHash> seen;
             for (const MeshTriangle& t : mesh.triangles) {
+                if (stop_()) {
+                    complete = false;
+                    return false;
+                }
                 if (!t.open) {
                     continue;
                 }
@@ -381,7 +402,7 @@ private:
             mesh.welds += fresh ? 1 : 0;
         }
         for (std::size_t m = 0; m < meshes_.size(); ++m) {
-            close_split(meshes_[m], split[m]);
+            close_split(meshes_[m], split[m], stop_);
         }
         // Sampled midpoints of every split edge are kept, also those of a coincident edge that asked for nothing itself.
         for (const Candidate& c : candidates) {
@@ -402,7 +423,7 @@ private:
             }
             NodeMesh& mesh = meshes_[m];
             const std::size_t before = mesh.vertices.size();
-            added_ += cut(mesh, split[m], middles[m]);
+            added_ += cut(mesh, split[m], middles[m], stop_);
             for (std::size_t v = before; v < mesh.vertices.size(); ++v) {
                 missing.push_back({&mesh.vertices[v]});
             }
@@ -417,18 +438,22 @@ private:
         out.surfaces.resize(rays_.surfaces().size());
         out.places.resize(settings_.keep_places ? out.surfaces.size() : 0);
         for (NodeMesh& mesh : meshes_) {
-            fill_covered(mesh, &LightVertex::front_covered, &LightVertex::front);
-            fill_covered(mesh, &LightVertex::back_covered, &LightVertex::back);
-            fill_covered(mesh, &LightVertex::front_covered, &LightVertex::front_direct);
-            fill_covered(mesh, &LightVertex::back_covered, &LightVertex::back_direct);
+            fill_covered(mesh, &LightVertex::front_covered, &LightVertex::front, stop_);
+            fill_covered(mesh, &LightVertex::back_covered, &LightVertex::back, stop_);
+            fill_covered(mesh, &LightVertex::front_covered, &LightVertex::front_direct, stop_);
+            fill_covered(mesh, &LightVertex::back_covered, &LightVertex::back_direct, stop_);
             for (DirectSample LightVertex::*sample :
                  {&LightVertex::front, &LightVertex::back, &LightVertex::front_direct, &LightVertex::back_direct}) {
-                smooth_noise(mesh, sample);
+                smooth_noise(mesh, sample, stop_);
+            }
+            if (context_.should_stop()) {
+                return {};
             }
             std::map<std::uint32_t, std::vector<const MeshTriangle*>> by_surface;
             for (const MeshTriangle& t : mesh.triangles) {
                 by_surface[t.surface].push_back(&t);
             }
+            std::vector<std::uint32_t> index(mesh.vertices.size(), kNone); // in the display mesh
             for (const auto& [s, triangles] : by_surface) {
                 const RaySurface& surface = rays_.surfaces()[s];
                 const MeshData& data = *surface.mesh;
@@ -436,7 +461,6 @@ private:
                 auto display = std::make_shared<DisplayMesh>();
                 layer->node = surface.node;
                 layer->part = surface.part;
-                std::unordered_map<std::uint32_t, std::uint32_t> index;
                 const auto map_of = [s = s](const auto& maps) { return maps.empty() ? nullptr : maps[s]; };
                 const bool charted = !maps_.charts.empty() && !maps_.charts[s].empty();
                 if (charted) {
@@ -445,6 +469,9 @@ private:
                 }
                 const Rgb rho = diffuse_reflectance(rays_.material(s));
                 for (const MeshTriangle* t : triangles) {
+                    if (stop_()) {
+                        return {};
+                    }
                     const auto& v = mesh.vertices;
                     const float area = 0.5F * glm::length(glm::cross(v[t->v[1]].position - v[t->v[0]].position,
                                                                      v[t->v[2]].position - v[t->v[0]].position));
@@ -452,14 +479,14 @@ private:
                         // Mirrored nodes were turned round for the rays; the display mesh keeps the file's winding.
                         const LightVertex& vertex = v[t->v[surface.mirrored ? (3 - k) % 3 : k]];
                         const std::uint32_t key = t->v[surface.mirrored ? (3 - k) % 3 : k];
-                        const auto [it, fresh] = index.try_emplace(key, std::uint32_t(display->positions.size()));
-                        if (fresh) {
+                        if (index[key] == kNone) { // a vertex is one surface's
+                            index[key] = std::uint32_t(display->positions.size());
                             add_output(*display, *layer, data, vertex, charted);
                             if (settings_.keep_places) {
                                 add_places(out.places[s], vertex);
                             }
                         }
-                        display->indices.push_back(it->second);
+                        display->indices.push_back(index[key]);
                         const double w = area / 3.0;
                         const DirectSample light = front(vertex);
                         const Rgb mapped = vertex.charted() && layer->direct_map_front
@@ -547,6 +574,7 @@ private:
     const LayerSettings& settings_;
     const std::function<bool(std::uint32_t)>& back_lit_;
     const RunContext& context_;
+    StopCheck stop_; ///< for loops of the engine thread
     std::vector<NodeMesh> meshes_;
     std::size_t added_ = 0;
 };

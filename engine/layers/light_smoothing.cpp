@@ -5,10 +5,10 @@
 
 namespace atrium {
 
-void fill_covered(NodeMesh& mesh, bool LightVertex::*covered, DirectSample LightVertex::*sample) {
+void fill_covered(NodeMesh& mesh, bool LightVertex::*covered, DirectSample LightVertex::*sample, StopCheck& stop) {
     std::vector<std::uint32_t> open;
     std::vector<std::uint8_t> empty(mesh.vertices.size(), 0); // still to be filled
-    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    for (std::uint32_t v = 0; v < mesh.vertices.size() && !stop(); ++v) {
         if (mesh.vertices[v].*covered) {
             open.push_back(v);
             empty[v] = 1;
@@ -20,6 +20,9 @@ void fill_covered(NodeMesh& mesh, bool LightVertex::*covered, DirectSample Light
         std::fill(sum.begin(), sum.end(), Rgb(0.0F));
         std::fill(count.begin(), count.end(), 0.0F);
         for (const MeshTriangle& t : mesh.triangles) {
+            if (stop()) {
+                return;
+            }
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t to = t.v[k];
                 for (const std::uint32_t from : {t.v[(k + 1) % 3], t.v[(k + 2) % 3]}) {
@@ -46,18 +49,21 @@ void fill_covered(NodeMesh& mesh, bool LightVertex::*covered, DirectSample Light
     }
 }
 
-void smooth_noise(NodeMesh& mesh, DirectSample LightVertex::*sample) {
+void smooth_noise(NodeMesh& mesh, DirectSample LightVertex::*sample, StopCheck& stop) {
     constexpr int kRounds = 4;
     std::vector<Rgb> sum(mesh.vertices.size());
     std::vector<float> weight(mesh.vertices.size());
     std::vector<float> variance(mesh.vertices.size());
     for (int round = 0; round < kRounds; ++round) {
-        for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        for (std::size_t v = 0; v < mesh.vertices.size() && !stop(); ++v) {
             sum[v] = (mesh.vertices[v].*sample).irradiance;
             weight[v] = 1.0F;
             variance[v] = (mesh.vertices[v].*sample).variance;
         }
         for (const MeshTriangle& t : mesh.triangles) {
+            if (stop()) {
+                return;
+            }
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t a = t.v[k], b = t.v[(k + 1) % 3];
                 const DirectSample& x = mesh.vertices[a].*sample;

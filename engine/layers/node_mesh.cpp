@@ -59,10 +59,13 @@ float edge_length(const NodeMesh& mesh, std::uint32_t a, std::uint32_t b) {
     return glm::length(mesh.vertices[a].position - mesh.vertices[b].position);
 }
 
-void close_split(NodeMesh& mesh, SplitSet& split) {
+void close_split(NodeMesh& mesh, SplitSet& split, StopCheck& stop) {
     for (bool grown = !split.empty(); grown;) {
         grown = false;
         for (MeshTriangle& t : mesh.triangles) {
+            if (stop()) {
+                return;
+            }
             bool any = false;
             for (std::size_t k = 0; k < 3 && !any; ++k) {
                 any = split.contains(edge_key(mesh.vertices[t.v[k]].weld, mesh.vertices[t.v[(k + 1) % 3]].weld));
@@ -80,7 +83,7 @@ void close_split(NodeMesh& mesh, SplitSet& split) {
     }
 }
 
-std::size_t cut(NodeMesh& mesh, const SplitSet& split, Middles& middles) {
+std::size_t cut(NodeMesh& mesh, const SplitSet& split, Middles& middles, StopCheck& stop) {
     std::size_t made = 0;
     std::vector<MeshTriangle> old;
     old.swap(mesh.triangles);
@@ -103,6 +106,9 @@ std::size_t cut(NodeMesh& mesh, const SplitSet& split, Middles& middles) {
         return middle->second;
     };
     for (const MeshTriangle& t : old) {
+        if (stop()) {
+            return made;
+        }
         if (!t.open) {
             add_triangle(mesh, t);
             continue;

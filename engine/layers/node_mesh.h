@@ -1,6 +1,7 @@
 // The growing mesh of one node: triangles whose edges are split without T-vertices and without slivers.
 #pragma once
 
+#include "engine/base/run_context.h"
 #include "engine/radiosity/direct_light.h"
 
 #include <algorithm>
@@ -74,9 +75,10 @@ LightVertex midpoint(const LightVertex& a, const LightVertex& b);
 float edge_length(const NodeMesh& mesh, std::uint32_t a, std::uint32_t b);
 /// Grows a set of split edges until every triangle that has one also splits its longest edge, and opens all triangles
 /// concerned: no slivers, and no T-vertex on a triangle that was thought finished.
-void close_split(NodeMesh& mesh, SplitSet& split);
+/// When stopped, this and cut() leave a mesh that is of no use.
+void close_split(NodeMesh& mesh, SplitSet& split, StopCheck& stop);
 /// Cuts the open triangles along the edges of a closed set (close_split); open triangles without one are closed. Middles
 /// found in `middles` are used, others made. Returns the number of vertices made.
-std::size_t cut(NodeMesh& mesh, const SplitSet& split, Middles& middles);
+std::size_t cut(NodeMesh& mesh, const SplitSet& split, Middles& middles, StopCheck& stop);
 
 } // namespace atrium

@@ -101,7 +101,10 @@ AuditSettings audit_settings(SolverSettings::Quality quality) {
 Result<ErrorAudit> audit_error(const Scene& scene, const Solution& solution, const AuditSettings& settings,
                                const RunContext& context) {
     const auto start = RunContext::Clock::now();
-    const std::vector<SensorPlace> places = seen_places(scene, settings.points, 0xAD17U + settings.seed);
+    const std::vector<SensorPlace> places = seen_places(scene, settings.points, 0xAD17U + settings.seed, context);
+    if (context.should_stop()) {
+        return fail("", "", "the audit was stopped", "Give it more time.");
+    }
     std::vector<ReferencePoint> points;
     for (const SensorPlace& place : places) {
         points.push_back({place.point, place.normal});

@@ -81,11 +81,14 @@ std::vector<SensorPlace> spread_places(const Scene& scene, const Solution& solut
     return out;
 }
 
-std::vector<SensorPlace> seen_places(const Scene& scene, std::size_t count, std::uint32_t seed) {
-    const RayScene rays(scene);
+std::vector<SensorPlace> seen_places(const Scene& scene, std::size_t count, std::uint32_t seed, const RunContext& context) {
+    const RayScene rays(scene, context);
+    if (context.should_stop()) {
+        return {};
+    }
     const PathTracer tracer(scene, rays);
     std::vector<SensorPlace> out;
-    for (const LitPlace& place : lit_places(rays, tracer, count, seed)) {
+    for (const LitPlace& place : lit_places(rays, tracer, count, seed, context)) {
         if (place.seen()) {
             out.push_back({place.position, place.normal});
         }

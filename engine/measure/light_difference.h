@@ -16,7 +16,9 @@ std::vector<SensorPlace> spread_places(const Scene& scene, const Solution& solut
 /// About `count` places that light can reach and that one can look at, evenly by area, the same ones every time: inside of
 /// solids and in gaps (LitPlace::seen()) nobody cares for light, and two solutions may differ there by as much as they like.
 /// Empty where the scene has no light. Another `seed` gives other places.
-std::vector<SensorPlace> seen_places(const Scene& scene, std::size_t count, std::uint32_t seed = 0x5EE7U);
+/// Fewer or none when stopped.
+std::vector<SensorPlace> seen_places(const Scene& scene, std::size_t count, std::uint32_t seed = 0x5EE7U,
+                                     const RunContext& context = {});
 
 /// Figures over all three channels, as in `difference()`.
 struct LightDifference {

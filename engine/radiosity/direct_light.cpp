@@ -9,6 +9,15 @@ namespace {
 
 constexpr std::size_t kSunScouts = 8; // rays towards the sun that may stand for all where they agree
 
+// Mean of max(0, cosine + y) over a disc whose points are uniform, y from -radius to radius: what a sun gives whose middle
+// stands at `cosine` and whose rim may be below the horizon.
+float above_horizon(float cosine, float radius) {
+    const float a = std::clamp(cosine / radius, -1.0F, 1.0F);
+    const float root = std::sqrt(1.0F - a * a);
+    const float share = a * (0.25F * kPi + 0.5F * (a * root + std::asin(a))) + root * root * root / 3.0F;
+    return std::max(radius * share * 2.0F / kPi, cosine);
+}
+
 // How a luminaire is turned about its axis, and what it gives hanging askew.
 void place_photometry(const PhotometricWeb& web, const dmat4& world, PlacedLight& out) {
     const dvec3 axis(out.axis);
@@ -172,6 +181,7 @@ void DirectLight::add_sun(const PlacedLight& sun, const vec3& point, const vec3&
     make_frame(-sun.axis, t, b);
     Rgb sum(0.0F), least(1.0F), most(0.0F);
     float lit = 0.0F;
+    float cosines = 0.0F;
     std::size_t traced = 0;
     for (; traced < disc.size(); ++traced) {
         // Where the first few rays all say the same, so would the others: only in penumbrae are they worth tracing.
@@ -185,10 +195,23 @@ void DirectLight::add_sun(const PlacedLight& sun, const vec3& point, const vec3&
         least = glm::min(least, through);
         most = glm::max(most, through);
         sum += through * std::max(c, 0.0F);
+        cosines += std::max(c, 0.0F);
         lit += max_component(through) > 0.0F ? 1.0F : 0.0F;
     }
     const auto n = float(traced);
-    out.irradiance += full * sum / n;
+    if (whole) {
+        out.irradiance += full * sum / n;
+    } else {
+        // Few of the points are above the horizon: they tell what share of the light arrives, not how much there is.
+        const float sine = std::sqrt(std::max(1.0F - cosine * cosine, 0.0F));
+        if (!(cosines > 0.0F)) { // none is: the middle of what can be seen stands for all of it
+            const vec3 up = normal + cosine * sun.axis;
+            const float y = 0.5F * (radius - cosine / std::max(sine, 1e-6F));
+            sum = light_from(glm::normalize(up * (y / std::max(glm::length(up), 1e-6F)) - sun.axis));
+            cosines = 1.0F;
+        }
+        out.irradiance += full * (above_horizon(cosine, radius * sine) / cosines) * sum;
+    }
     if (lit > 0.0F && lit < n) {
         // Of n even points about 2 sqrt(n p (1 - p)) stand for pieces of the disc that an edge cuts: each is off by a
         // variance of 1/12 of its light squared.

@@ -174,7 +174,7 @@ SurfacePoint sample_point(const Hierarchy& hierarchy, const RayScene& rays, std:
 
 /// Builds clusters and leaves from all surfaces. Planar pieces larger than the group size (see planar_regions()) become
 /// patches, one a side, however many triangles they have; what is smaller is grouped by place and normal. Emitting and other
-/// surfaces are in separate subtrees of the root. O(n log n).
-Hierarchy build_hierarchy(const RayScene& rays, const HierarchySettings& settings);
+/// surfaces are in separate subtrees of the root. O(n log n). Of no use when stopped.
+Hierarchy build_hierarchy(const RayScene& rays, const HierarchySettings& settings, const RunContext& context = {});
 
 } // namespace atrium

@@ -16,15 +16,22 @@ constexpr float kOneSided = 0.7F; // |sum of area vectors| / area from which a g
 
 class Builder {
 public:
-    Builder(const RayScene& rays, Hierarchy& out) : rays_(rays), out_(out) {}
+    Builder(const RayScene& rays, Hierarchy& out, const RunContext& context)
+        : rays_(rays), out_(out), context_(context), stop_(context, kMeshStride) {}
 
     void run() {
         divide_surfaces();
+        if (context_.should_stop()) {
+            return;
+        }
         if (items_[0].empty() && items_[1].empty() && small_[0].empty() && small_[1].empty()) {
             return;
         }
         for (const std::size_t emits : {1U, 0U}) {
             group(small_[emits], items_[emits]);
+        }
+        if (context_.should_stop()) {
+            return;
         }
         out_.elements.emplace_back();
         out_.elements[0].path = hash64(out_.settings.seed);
@@ -58,10 +65,13 @@ private:
         const auto& surfaces = rays_.surfaces();
         std::vector<PlanarRegions> pieces(surfaces.size());
         parallel_chunks(surfaces.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t s = begin; s < end; ++s) {
-                pieces[s] = planar_regions(*surfaces[s].positions, surfaces[s].triangles, {kSheetFlatness});
+            for (std::size_t s = begin; s < end && !context_.should_stop(); ++s) {
+                pieces[s] = planar_regions(*surfaces[s].positions, surfaces[s].triangles, {kSheetFlatness}, context_);
             }
         });
+        if (context_.should_stop()) {
+            return;
+        }
         std::size_t triangles = 0;
         for (const RaySurface& surface : surfaces) {
             out_.first_triangle.push_back(triangles);
@@ -71,9 +81,12 @@ private:
         out_.top.assign(triangles, {Element::kNone, Element::kNone});
         for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
             for (const PlanarRegion& region : pieces[s].regions) {
+                if (stop_()) {
+                    return;
+                }
                 add_sheet(s, region, std::span(pieces[s].members).subspan(region.first, region.count));
             }
-            for (std::uint32_t t = 0; t < surfaces[s].triangles.size(); ++t) {
+            for (std::uint32_t t = 0; t < surfaces[s].triangles.size() && !stop_(); ++t) {
                 if (out_.on_sheet[out_.first_triangle[s] + t] == Element::kNone) {
                     add_face(s, t, false);
                     if (surfaces[s].back_side) {
@@ -149,7 +162,7 @@ private:
 
     // Halves the set until what is left is no larger than the group size; then by normals, see finish_group().
     void group(std::span<Small> set, std::vector<Item>& items) {
-        if (set.empty()) {
+        if (set.empty() || context_.should_stop()) {
             return;
         }
         Box3 box;
@@ -337,6 +350,8 @@ private:
 
     const RayScene& rays_;
     Hierarchy& out_;
+    const RunContext& context_;
+    StopCheck stop_;
     std::vector<Face> loose_;
     std::array<std::vector<Small>, 2> small_; ///< [1]: of what emits
     std::array<std::vector<Item>, 2> items_;
@@ -344,10 +359,10 @@ private:
 
 } // namespace
 
-Hierarchy build_hierarchy(const RayScene& rays, const HierarchySettings& settings) {
+Hierarchy build_hierarchy(const RayScene& rays, const HierarchySettings& settings, const RunContext& context) {
     Hierarchy out;
     out.settings = settings;
-    Builder(rays, out).run();
+    Builder(rays, out, context).run();
     return out;
 }
 

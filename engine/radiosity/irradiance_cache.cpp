@@ -149,7 +149,8 @@ bool IrradianceCache::add_round(std::span<const SurfacePoint> points, std::vecto
     std::vector<std::uint32_t> left;
     std::vector<std::uint32_t> chosen;
     const float room2 = separation * separation;
-    for (std::size_t i = 0; i < open.size(); ++i) {
+    StopCheck stop(context, kMeshStride);
+    for (std::size_t i = 0; i < open.size() && !stop(); ++i) {
         if (reached[i] != 0) {
             continue;
         }

@@ -9,7 +9,7 @@ namespace atrium {
 /// left to particles. Immutable; safe from any thread. `rays` must outlive it.
 class MirrorLight {
 public:
-    explicit MirrorLight(const RayScene& rays) : rays_(rays), mirrors_(rays) {}
+    explicit MirrorLight(const RayScene& rays, const RunContext& context = {}) : rays_(rays), mirrors_(rays, context) {}
 
     /// There is no flat mirror.
     [[nodiscard]] bool empty() const { return mirrors_.empty(); }

@@ -22,7 +22,11 @@ bool anything_on(RTCScene scene, RTCRay& ray) {
     return ray.tfar < 0.0F;
 }
 
-void on_embree_error(void*, RTCError, const char* message) { std::fprintf(stderr, "embree: %s\n", message); }
+void on_embree_error(void*, RTCError error, const char* message) {
+    if (error != RTC_ERROR_CANCELLED) { // we asked it to stop
+        std::fprintf(stderr, "embree: %s\n", message);
+    }
+}
 
 } // namespace
 
@@ -79,13 +83,14 @@ RTCGeometry EmbreeTriangles::make(const RaySurface& surface, bool filters) const
     return geometry;
 }
 
-void EmbreeTriangles::build(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters) {
+void EmbreeTriangles::build(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters,
+                            const RunContext& context) {
     release_scenes();
     rebuilt_ = false;
     still_ = new_scene();
     still_filters_ = new_scene();
     triangles_ = 0;
-    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    for (std::size_t i = 0; i < surfaces.size() && !context.should_stop(); ++i) {
         RTCGeometry geometry = make(surfaces[i], filters[i] != 0);
         rtcAttachGeometryByID(still_, geometry, unsigned(i));
         if (filters[i] != 0) {
@@ -94,8 +99,15 @@ void EmbreeTriangles::build(std::span<const RaySurface> surfaces, const std::vec
         rtcReleaseGeometry(geometry);
         triangles_ += surfaces[i].triangles.size();
     }
-    rtcCommitScene(still_);
-    rtcCommitScene(still_filters_);
+    for (RTCScene scene : {still_, still_filters_}) {
+        rtcSetSceneProgressMonitorFunction(
+            scene, [](void* asked, double) { return !static_cast<const RunContext*>(asked)->should_stop(); },
+            const_cast<RunContext*>(&context));
+        if (!context.should_stop()) {
+            rtcCommitScene(scene);
+        }
+        rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr); // the context is the caller's
+    }
     number_in_moved_.assign(surfaces.size(), Hit::kNone);
 }
 

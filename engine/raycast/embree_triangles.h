@@ -34,7 +34,9 @@ public:
     EmbreeTriangles& operator=(const EmbreeTriangles&) = delete;
 
     /// One value of `filters` for each surface.
-    void build(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters);
+    /// No query may follow when it is stopped.
+    void build(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters,
+               const RunContext& context = {});
     /// Some surfaces have other positions (the same number of them) or filter otherwise; no query may run. `bounds` are
     /// those of all surfaces.
     void move(std::span<const std::uint32_t> moved, std::span<const RaySurface> surfaces,

@@ -69,7 +69,7 @@ Piece make_piece(const RayScene& rays, std::uint32_t surface, const PlanarRegion
 
 } // namespace
 
-PlanarMirrors::PlanarMirrors(const RayScene& rays) {
+PlanarMirrors::PlanarMirrors(const RayScene& rays, const RunContext& context) {
     const double diagonal = rays.bounds().diagonal();
     const double smallest = kSmallest * diagonal * diagonal;
     std::vector<Piece> pieces;
@@ -78,9 +78,9 @@ PlanarMirrors::PlanarMirrors(const RayScene& rays) {
             continue;
         }
         const RaySurface& surface = rays.surfaces()[s];
-        const PlanarRegions found = planar_regions(*surface.positions, surface.triangles, kFlat);
+        const PlanarRegions found = planar_regions(*surface.positions, surface.triangles, kFlat, context);
         for (const PlanarRegion& region : found.regions) {
-            if (region.area < smallest) {
+            if (region.area < smallest || context.should_stop()) {
                 continue;
             }
             Piece piece = make_piece(rays, s, region, std::span(found.members).subspan(region.first, region.count));

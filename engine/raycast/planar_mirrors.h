@@ -38,8 +38,8 @@ public:
 
     PlanarMirrors() = default;
     /// The largest flat pieces of smooth metal. Small pieces, facets of bent mirrors and triangles that are shaded as if
-    /// they were bent are left out.
-    explicit PlanarMirrors(const RayScene& rays);
+    /// they were bent are left out. Some are missing when it is stopped.
+    explicit PlanarMirrors(const RayScene& rays, const RunContext& context = {});
 
     [[nodiscard]] bool empty() const { return mirrors_.empty(); }
     [[nodiscard]] std::span<const PlanarMirror> mirrors() const { return mirrors_; }

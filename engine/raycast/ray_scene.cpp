@@ -34,6 +34,11 @@ bool filters_light(const Material& m, const RaySurface& s) {
     return m.alpha_mode != Material::Alpha::Opaque || glass_is_straight(m, s);
 }
 
+// Glass that is nearly air: its focus is thousands of radii away, and what it turns light by is less than the sun's radius
+// up to 87 degrees of incidence. Particles would only make noise of the light that it leaves alone. What is tinted by the
+// way through it is followed all the same.
+bool hardly_bends(const Material& m) { return std::abs(m.ior - 1.0F) <= 2e-4F && absorption(m, 1e3F) == Rgb(1.0F); }
+
 // One crossing of a glass surface without bending. Thin: both faces with their inner reflections, (1-F)/(1+F). Slab: one
 // face, and half of what its inside absorbs along the bent way. The angle within a slab counts as that outside.
 Rgb glass_transmittance(const Material& m, const RaySurface& s, const Rgb& tint, float cos_i) {
@@ -107,7 +112,7 @@ struct RayScene::Impl {
         counters[slot].value.fetch_add(rays, std::memory_order_relaxed);
     }
 
-    void collect() {
+    void collect(const RunContext& context) {
         const DBox3 world = scene.bounds();
         extent = world.diagonal();
         // floor(x + 0.5), not round(): halves go the same way on both sides of zero, so a moved scene gives the same
@@ -121,12 +126,15 @@ struct RayScene::Impl {
             if (shape == nullptr || !scene.shown(id)) {
                 continue;
             }
+            if (context.should_stop()) {
+                return;
+            }
             const int segments = curve_segments(node);
             auto& mesh = tessellated[{node.shape, segments}];
             if (!mesh) {
                 mesh = tessellate(shape->geometry, {segments});
             }
-            add_node(id, node, *shape, mesh, closed);
+            add_node(id, node, *shape, mesh, closed, context);
         }
         any_filter = std::find(filters.begin(), filters.end(), 1) != filters.end();
     }
@@ -142,7 +150,7 @@ struct RayScene::Impl {
     }
 
     void add_node(NodeId id, const Node& node, const Shape& shape, const std::shared_ptr<const MeshData>& mesh,
-                  std::map<const MeshData*, bool>& closed) {
+                  std::map<const MeshData*, bool>& closed, const RunContext& context) {
         Placed place{id, mesh, scene.world_matrix(id), scene.world_bounds(id), std::uint32_t(surfaces.size()), 0, {}};
         place.to_engine[3] -= dvec4(origin, 0.0);
         const auto positions = positions_of(*mesh, place.to_engine);
@@ -159,7 +167,10 @@ struct RayScene::Impl {
             surface.domain = domain;
             surface.positions = positions;
             Box3 box;
-            dropped += place_surface(surface, place.to_engine, box);
+            dropped += place_surface(surface, place.to_engine, box, context);
+            if (context.should_stop()) {
+                return;
+            }
             if (surface.triangles.empty()) {
                 continue;
             }
@@ -172,12 +183,12 @@ struct RayScene::Impl {
                     // Solids' insides stay dark and cost nothing. Whatever is as large as a room may be one, seen from
                     // inside.
                     const bool small = is_small(place.world, extent);
-                    it->second = small && is_solid(*mesh);
+                    it->second = small && is_solid(*mesh, context);
                     insides.push_back({placed.size(), mesh, small});
                 }
                 surface.back_side = !it->second;
             }
-            find_glass(surface, *material);
+            find_glass(surface, *material, context);
             triangles += surface.triangles.size();
             materials.push_back(material);
             filters.push_back(filters_light(*material, surface) ? 1 : 0);
@@ -189,7 +200,9 @@ struct RayScene::Impl {
     }
 
     static bool is_small(const DBox3& world, double extent) { return world.diagonal() < 0.25 * extent; }
-    static bool is_solid(const MeshData& mesh) { return is_closed(mesh) && signed_volume(mesh) > 0.0; }
+    static bool is_solid(const MeshData& mesh, const RunContext& context) {
+        return is_closed(mesh, context) && signed_volume(mesh) > 0.0;
+    }
 
     static std::shared_ptr<const std::vector<vec3>> positions_of(const MeshData& mesh, const dmat4& to_engine) {
         auto positions = std::make_shared<std::vector<vec3>>(mesh.positions.size());
@@ -200,7 +213,9 @@ struct RayScene::Impl {
     }
 
     // Everything that follows from the placement alone; positions are there. Returns how many triangles are left out.
-    static std::size_t place_surface(RaySurface& surface, const dmat4& to_engine, Box3& box) {
+    static std::size_t place_surface(RaySurface& surface, const dmat4& to_engine, Box3& box,
+                                     const RunContext& context = {}) {
+        StopCheck stop(context, kMeshStride);
         const double determinant = glm::determinant(dmat3(to_engine));
         surface.to_engine = to_engine;
         surface.mirrored = determinant < 0.0;
@@ -209,7 +224,7 @@ struct RayScene::Impl {
         std::size_t left_out = 0;
         const MeshData& mesh = *surface.mesh;
         const MeshPart& range = mesh.parts[surface.part];
-        for (std::uint32_t i = range.first_index; i + 2 < range.first_index + range.index_count; i += 3) {
+        for (std::uint32_t i = range.first_index; i + 2 < range.first_index + range.index_count && !stop(); i += 3) {
             uvec3 t(mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]);
             if (surface.mirrored) {
                 std::swap(t.y, t.z);
@@ -230,12 +245,11 @@ struct RayScene::Impl {
         return left_out;
     }
 
-    static void find_glass(RaySurface& surface, const Material& material) {
-        surface.slab_thickness = 0.0F;
-        if (classify(material) == MaterialKind::DielectricSolid && material.roughness < kMirrorRoughness) {
-            surface.slab_thickness = slab_thickness(surface);
-        }
-        surface.slab = surface.slab_thickness > 0.0F;
+    static void find_glass(RaySurface& surface, const Material& material, const RunContext& context = {}) {
+        const bool clear_solid =
+            classify(material) == MaterialKind::DielectricSolid && material.roughness < kMirrorRoughness;
+        surface.slab_thickness = clear_solid ? slab_thickness(surface, context) : 0.0F;
+        surface.slab = surface.slab_thickness > 0.0F || (clear_solid && hardly_bends(material));
         surface.pane = is_pane(surface, material);
     }
 
@@ -382,7 +396,7 @@ struct RayScene::Impl {
         }
         const double out = all.diagonal();
         const bool same = std::all_of(insides.begin(), insides.end(), [&](const Inside& inside) {
-            return is_small(*worlds[inside.placed], out) == inside.small || !is_solid(*inside.mesh);
+            return is_small(*worlds[inside.placed], out) == inside.small || !is_solid(*inside.mesh, {});
         });
         return same ? std::optional(out) : std::nullopt;
     }
@@ -683,10 +697,10 @@ float shadow_offset(const vec3& p) {
     return std::max(kEndOffset, kRelativeOffset * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
 }
 
-RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
+RayScene::RayScene(const Scene& scene, const RunContext& context) : impl_(std::make_unique<Impl>()) {
     impl_->scene = scene;
-    impl_->collect();
-    impl_->embree.build(impl_->surfaces, impl_->filters);
+    impl_->collect(context);
+    impl_->embree.build(impl_->surfaces, impl_->filters, context);
 }
 
 RayScene::~RayScene() = default;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/base/result.h"
+#include "engine/base/run_context.h"
 #include "engine/base/units.h"
 #include "engine/scene/scene.h"
 
@@ -25,8 +26,9 @@ struct RaySurface {
     std::vector<uvec3> triangles; ///< vertex indices, counter-clockwise from the front; degenerate ones are left out
     bool pane =
         false; ///< a sheet or slab of clear glass large enough to be a window: the sky is looked for through it by name
-    bool slab = false; ///< solid clear glass that bounds flat panes: light crosses it straight on, as a clear sheet
-    float slab_thickness = 0.0F; ///< metres; 0 where it is none
+    bool slab =
+        false; ///< solid clear glass that bounds flat panes, or hardly bends: light goes straight on, as over a sheet
+    float slab_thickness = 0.0F; ///< of flat panes, metres; else 0
     bool back_side = false;      ///< the back reflects: double-sided material on a mesh that bounds no solid
     dmat4 to_engine{1.0};        ///< local to engine coordinates
     dmat3 normal_matrix{1.0};    ///< inverse transpose of its linear part
@@ -77,8 +79,8 @@ struct MovedSurface {
 class RayScene {
 public:
     /// Builds from the shown nodes of `scene`, of which it keeps its own copy. Degenerate and non-finite triangles are left
-    /// out and counted.
-    explicit RayScene(const Scene& scene);
+    /// out and counted. When stopped, it is incomplete and must not be asked anything.
+    explicit RayScene(const Scene& scene, const RunContext& context = {});
     ~RayScene();
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;

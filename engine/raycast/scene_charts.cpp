@@ -4,13 +4,13 @@
 
 namespace atrium {
 
-std::vector<SurfaceCharts> chart_surfaces(const RayScene& rays, const ChartSettings& settings) {
+std::vector<SurfaceCharts> chart_surfaces(const RayScene& rays, const ChartSettings& settings, const RunContext& context) {
     const std::vector<RaySurface>& surfaces = rays.surfaces();
     std::vector<SurfaceCharts> out(surfaces.size());
     parallel_chunks(surfaces.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) {
+        for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
             const RaySurface& s = surfaces[i];
-            out[i] = build_charts(*s.positions, s.triangles, s.domain ? *s.domain : std::vector<vec2>{}, settings);
+            out[i] = build_charts(*s.positions, s.triangles, s.domain ? *s.domain : std::vector<vec2>{}, settings, context);
         }
     });
     return out;

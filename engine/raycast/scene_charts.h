@@ -11,7 +11,9 @@ namespace atrium {
 /// Charts of every surface of `rays`, in the order of RayScene::surfaces(): triangles, their order and barycentric
 /// coordinates are those of Hit. Curved primitives are charted by their own coordinates. On all cores; the same for any
 /// number of them.
-std::vector<SurfaceCharts> chart_surfaces(const RayScene& rays, const ChartSettings& settings);
+/// Some have none when it is stopped.
+std::vector<SurfaceCharts> chart_surfaces(const RayScene& rays, const ChartSettings& settings,
+                                          const RunContext& context = {});
 
 /// Chart-space coordinates of a point of a charted triangle, `barycentric` as in Hit (tiles).
 inline vec2 chart_uv(const SurfaceCharts& charts, std::uint32_t triangle, const vec2& barycentric) {

@@ -26,7 +26,7 @@ vec3 area_vector(const RaySurface& s, const uvec3& t) {
 
 /// Distance at which a ray straight in from the probe meets the inside of a parallel face first; infinite where what it
 /// meets first is not one.
-float behind(const RaySurface& s, const Probe& probe, float farthest) {
+float behind(const RaySurface& s, const Probe& probe, float farthest, StopCheck& stop) {
     const vec3 direction = -probe.normal;
     float nearest = std::numeric_limits<float>::infinity();
     bool parallel = false;
@@ -34,6 +34,9 @@ float behind(const RaySurface& s, const Probe& probe, float farthest) {
     const float clear =
         std::max(1e-4F, 1e-6F * max_component(size)); // the probe's own face, and its neighbours in its plane
     for (const uvec3& t : s.triangles) {
+        if (stop()) {
+            break;
+        }
         const auto& p = *s.positions;
         const vec3 a = p[t.x];
         const vec3 e1 = p[t.y] - a;
@@ -59,7 +62,8 @@ float behind(const RaySurface& s, const Probe& probe, float farthest) {
 
 } // namespace
 
-float slab_thickness(const RaySurface& surface) {
+float slab_thickness(const RaySurface& surface, const RunContext& context) {
+    StopCheck stop(context, kMeshStride);
     double area = 0.0;
     for (const uvec3& t : surface.triangles) {
         area += double(glm::length(area_vector(surface, t)));
@@ -86,7 +90,10 @@ float slab_thickness(const RaySurface& surface) {
         const float root = std::sqrt(u.x);
         const Probe probe{p[t.x] * (1.0F - root) + p[t.y] * (root * (1.0F - u.y)) + p[t.z] * (root * u.y),
                           glm::normalize(area_vector(surface, t))};
-        const float distance = behind(surface, probe, farthest);
+        const float distance = behind(surface, probe, farthest, stop);
+        if (stop()) {
+            return 0.0F;
+        }
         if (!std::isfinite(distance)) {
             if (++missed > kProbes - kFacing) {
                 return 0.0F;

@@ -8,6 +8,7 @@ namespace atrium {
 /// Mean thickness of a surface that bounds flat panes, metres; 0 = it does not. Four fifths of its area must have a parallel
 /// face of the same surface (within 2 degrees) behind them, closer than 6 cm and than a quarter of the root of its area, in
 /// few directions: shells of curved things are none. Looks at the shape alone, not at the material.
-float slab_thickness(const RaySurface& surface);
+/// 0 when stopped.
+float slab_thickness(const RaySurface& surface, const RunContext& context = {});
 
 } // namespace atrium

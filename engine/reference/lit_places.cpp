@@ -77,7 +77,9 @@ bool alone_in_its_plane(const RayScene& rays, NodeId node, const vec3& p, const 
 
 } // namespace
 
-std::vector<LitPlace> lit_places(const RayScene& rays, const PathTracer& tracer, std::size_t count, std::uint32_t seed) {
+std::vector<LitPlace> lit_places(const RayScene& rays, const PathTracer& tracer, std::size_t count, std::uint32_t seed,
+                                 const RunContext& context) {
+    StopCheck stop(context, kMeshStride);
     std::vector<Side> sides;
     std::vector<double> cumulative;
     double total = 0.0;
@@ -85,7 +87,7 @@ std::vector<LitPlace> lit_places(const RayScene& rays, const PathTracer& tracer,
         if (classify(rays.material(s)) != MaterialKind::Diffuse) {
             continue;
         }
-        for (std::uint32_t t = 0; t < rays.surfaces()[s].triangles.size(); ++t) {
+        for (std::uint32_t t = 0; t < rays.surfaces()[s].triangles.size() && !stop(); ++t) {
             const auto p = rays.triangle(s, t);
             const double area = 0.5 * double(glm::length(glm::cross(p[1] - p[0], p[2] - p[0])));
             for (int side = 0; side < (rays.surfaces()[s].back_side ? 2 : 1); ++side) {
@@ -96,7 +98,7 @@ std::vector<LitPlace> lit_places(const RayScene& rays, const PathTracer& tracer,
         }
     }
     std::vector<LitPlace> out;
-    for (std::uint32_t i = 0; out.size() < count && i < 20 * count && total > 0.0; ++i) {
+    for (std::uint32_t i = 0; out.size() < count && i < 20 * count && total > 0.0 && !context.should_stop(); ++i) {
         if (i == kGiveUp && out.empty()) {
             break; // a scene without light
         }

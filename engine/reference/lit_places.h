@@ -22,6 +22,8 @@ struct LitPlace {
 /// Up to `count` random places, evenly by area over both sides where both have light; the same ones for the same scene,
 /// count and seed. Left out are places that something lies on within a millimetre or in whose very plane another surface
 /// lies (which of the two is seen there is left to rounding), holes of masks, and insides that no light gets into.
-std::vector<LitPlace> lit_places(const RayScene& rays, const PathTracer& tracer, std::size_t count, std::uint32_t seed);
+/// Fewer or none when stopped.
+std::vector<LitPlace> lit_places(const RayScene& rays, const PathTracer& tracer, std::size_t count, std::uint32_t seed,
+                                 const RunContext& context = {});
 
 } // namespace atrium

@@ -196,7 +196,10 @@ Result<ReferenceReadings> reference_irradiance(const Scene& scene, const std::ve
     if (auto fine = check(settings, context); !fine) {
         return tl::unexpected(fine.error());
     }
-    const RayScene rays(scene);
+    const RayScene rays(scene, context);
+    if (context.should_stop()) {
+        return tl::unexpected(stopped_too_soon());
+    }
     const PathTracer tracer(scene, rays);
     ReferenceReadings out;
     out.points.resize(points.size());
@@ -245,7 +248,10 @@ Result<ReferencePicture> reference_picture(const Scene& scene, const ReferenceVi
     if (auto fine = check(settings, context); !fine) {
         return tl::unexpected(fine.error());
     }
-    const RayScene rays(scene);
+    const RayScene rays(scene, context);
+    if (context.should_stop()) {
+        return tl::unexpected(stopped_too_soon());
+    }
     const PathTracer tracer(scene, rays);
     ReferencePicture out;
     const int width = std::max(view.width, 1);

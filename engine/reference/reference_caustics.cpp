@@ -69,7 +69,10 @@ Result<ReferenceCaustics> reference_caustics(const Scene& scene, const Reference
     if (settings.particles == 0 && context.deadline == RunContext::Clock::time_point::max()) {
         return fail("", "", "nothing says when the reference is good enough", "Give a time limit or a number of particles.");
     }
-    const RayScene rays(scene);
+    const RayScene rays(scene, context);
+    if (context.should_stop()) {
+        return fail("", "", "stopped before the first estimate", "Give it more time.");
+    }
     const auto receiver = receiver_of(rectangle, rays);
     if (!receiver) {
         return tl::unexpected(receiver.error());

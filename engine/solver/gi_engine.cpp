@@ -101,10 +101,13 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
 
     timer.next("ray_scene");
     context.progress("ray_scene", 0.0);
-    s.rays = std::make_unique<RayScene>(scene);
+    s.rays = std::make_unique<RayScene>(scene, context);
+    if (context.should_stop()) {
+        return stopped();
+    }
     s.punctual = std::make_unique<DirectLight>(scene, *s.rays, context);
     // The paper follows light over mirrors by particles alone.
-    s.mirrors = options.paper_mode ? nullptr : std::make_unique<MirrorLight>(*s.rays);
+    s.mirrors = options.paper_mode ? nullptr : std::make_unique<MirrorLight>(*s.rays, context);
     if (s.mirrors && s.mirrors->empty()) {
         s.mirrors.reset();
     }
@@ -127,7 +130,10 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     context.progress("hierarchy", 0.03);
     HierarchySettings hierarchy_settings = quality.hierarchy;
     hierarchy_settings.seed = options.seed;
-    s.hierarchy = build_hierarchy(*s.rays, hierarchy_settings);
+    s.hierarchy = build_hierarchy(*s.rays, hierarchy_settings, context);
+    if (context.should_stop()) {
+        return stopped();
+    }
     statistics.time.build = seconds_since(start);
     {
         const std::vector<std::uint32_t> leaves = s.hierarchy.leaves();
@@ -158,8 +164,11 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     float light_floor = s.guess_floor(quality);
     timer.next("charts");
     // Where no light comes straight from a source there is nothing to map.
-    s.charts =
-        s.nothing_direct() ? std::vector<SurfaceCharts>(s.rays->surfaces().size()) : chart_surfaces(*s.rays, quality.charts);
+    s.charts = s.nothing_direct() ? std::vector<SurfaceCharts>(s.rays->surfaces().size())
+                                  : chart_surfaces(*s.rays, quality.charts, context);
+    if (context.should_stop()) {
+        return stopped();
+    }
     for (std::uint32_t i = 0; i < s.charts.size(); ++i) {
         if (shows_no_irradiance(s.rays->material(i))) {
             s.charts[i] = {};

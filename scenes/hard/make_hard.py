@@ -349,6 +349,24 @@ def leak(f):
     f.camera(translation=[2.0, 1.5, 1.5])
 
 
+@variants(corner=0.0, corner_gap=1e-4)
+def corner(f, gap):
+    """A room of six walls that meet in their edges, or miss each other by `gap`; lamps outside, nothing inside."""
+    white = f.material("white", matt(0.8))
+    a = 1.0 - gap
+    for name, axis, sign in (("+X", 0, 1), ("-X", 0, -1), ("+Y", 1, 1), ("-Y", 1, -1), ("+Z", 2, 1), ("-Z", 2, -1)):
+        u, v = [k for k in range(3) if k != axis]
+        def at(s, t):
+            p = [0.0, 0.0, 0.0]
+            p[axis], p[u], p[v] = float(sign), s * a, t * a
+            return tuple(p)
+        wall = quad(at(-1, -1), at(1, -1), at(1, 1), at(-1, 1))
+        f.thing("Wall " + name, wall + list(reversed(wall)), white)
+    for x in (-2.5, 2.5):
+        f.light("Lamp", "point", 1000.0, translation=[x, 2.0, 1.5])
+    f.camera(translation=[0.0, 0.0, 0.8])
+
+
 # ---- triangles ----
 @small
 def slivers(f):
@@ -471,6 +489,25 @@ def no_surfaces(f):
 
 
 @small
+def only_sky(f):
+    """A plate that looks up and one that looks down under an even sky."""
+    f.thing("Plate", floor(1, 1), f.material("grey", matt(0.5)))
+    f.thing("Underside", ceiling(1, 1, 0.5, 3.0), f.material("dark", matt(0.0)))
+    f.sky(100.0)
+    f.camera(translation=[0.0, 0.5, 1.5])
+
+
+@small
+def facets(f):
+    """CIE 5.3 with every triangle of the room three times: as it is, again, and turned round."""
+    s, black = 1.0, f.material("black", matt(0.0))
+    walls = box((4 * s, 3 * s, 4 * s), (0.0, 1.5 * s, 0.0), inwards=True)
+    f.thing("Room", walls + walls + list(reversed(walls)), black)
+    f.thing("Source", ceiling(s, s, 2.999999 * s), f.material("source", matt(0.0, 1000.0 * math.pi)))
+    f.camera(translation=[0.0, 1.0, 1.9])
+
+
+@small
 def only_a_mirror(f):
     f.thing("Mirror", floor(1, 1), f.material("mirror", mirror(0.9)))
     f.sun(1000.0)
@@ -546,6 +583,18 @@ def million_triangles(f):
     f.thing("Ball", sphere(0.8, (0.0, 1.2, 0.0), 1000), f.material("white", matt(0.7)))
     f.light("Lamp", "point", 100.0, translation=[1.2, 2.5, 1.0])
     f.camera(translation=[0.0, 1.5, 2.3])
+
+
+@large
+def one_beside_many(f):
+    """A ball of 1,000,000 triangles beside 4,000 boxes of 12."""
+    f.room(0.6, (20.0, 4.0, 20.0))
+    f.thing("Ball", sphere(0.8, (0.0, 1.5, 0.0), 1000), f.material("white", matt(0.7)))
+    mesh = f.mesh("Box", box((0.1, 0.2, 0.1)), f.material("wood", matt(0.5)))
+    for i in range(4000):
+        f.node("Box %d" % (i + 1), mesh=mesh, translation=[-9.5 + 19.0 * (i % 80) / 79, 0.1, -9.5 + 19.0 * (i // 80) / 49])
+    f.light("Lamp", "point", 1000.0, translation=[4.0, 3.5, 3.0])
+    f.camera(translation=[0.0, 1.5, 9.0])
 
 
 @large

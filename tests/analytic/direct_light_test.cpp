@@ -213,6 +213,36 @@ TEST(DirectLight, GrazingSun) {
 }
 
 // Uniform sky of radiance L: pi L on an open plane, half of it on a wall that stands on wide black ground.
+// Of the sun's disc the part above the horizon shines: 100,000 lx times the mean of max(0, sin) over it, here by a sum over
+// a fine grid. Whatever the number of rays, also where all of their points lie below.
+TEST(DirectLight, SunHalfBelowTheHorizon) {
+    constexpr double kRadius = 0.265; // degrees
+    for (const double elevation : {0.5, 0.3, 0.2, 0.1, 0.0, -0.1, -0.2, -0.26, -0.3}) {
+        double sum = 0.0, count = 0.0;
+        constexpr int kGrid = 400;
+        for (int i = 0; i < kGrid; ++i) {
+            for (int j = 0; j < kGrid; ++j) {
+                const double x = 2.0 * (i + 0.5) / kGrid - 1.0, y = 2.0 * (j + 0.5) / kGrid - 1.0;
+                if (x * x + y * y < 1.0) {
+                    sum += std::max(std::sin(radians_from_degrees(elevation + kRadius * y)), 0.0);
+                    count += 1.0;
+                }
+            }
+        }
+        const double expected = 1e5 * sum / count;
+        Scene scene;
+        Light sun;
+        sun.kind = Light::Kind::Directional;
+        sun.intensity = 1e5F;
+        sun.angular_diameter_degrees = float(2.0 * kRadius);
+        add_light(scene, sun, {0, 0, 0}, glm::angleAxis(-radians_from_degrees(elevation), dvec3(1, 0, 0)));
+        for (const unsigned rays : {1U, 8U, 32U, 128U}) {
+            EXPECT_NEAR(e_at(scene, {0, 0, 0}, {0, 1, 0}, rays), expected, 0.002 * expected + 1e-3)
+                << elevation << " degrees, " << rays << " rays";
+        }
+    }
+}
+
 TEST(DirectLight, UniformSkyOnPlaneAndWall) {
     Scene scene;
     scene.environment.sky_radiance = Rgb(1000.0F, 2000.0F, 3000.0F);

@@ -117,5 +117,23 @@ TEST(SpecularRooms, FurnaceWithMirrorAndGlassCloses) {
     EXPECT_EQ(s.solution->statistics.particles_emitted, 0U); // no light stands out: the rays of the gather see over mirrors
 }
 
+// X-TIR: an isotropic source in the middle of a lossless cube of glass. Faces keep the size of each component of a
+// direction, so what lies in the cone of one face leaves by it in the end, and all else stays inside for ever: six cones of
+// (1 - cos 41.81 deg) / 2 = 12.7322 % come out.
+TEST(SpecularRooms, GlassCubeLetsSixConesOut) {
+    Scene scene;
+    test::add_room(scene, 3, 3, 3, add_material(scene, 0.0F));
+    add_shape(scene, "cube", Box{vec3(0.5F)}, {1.5, 1.5, 1.5}, add_solid_glass(scene, 1.5F));
+    test::add_point_light(scene, {1.5, 1.5, 1.5}, 1000.0);
+    const Solved s = test::solve(scene, SolverSettings::Quality::Draft);
+    ASSERT_TRUE(s.solution);
+    double flux = 0.0;
+    for (int wall = 0; wall < 6; ++wall) {
+        flux += 9.0 * test::mean_irradiance(scene, *s.solution, scene.roots[std::size_t(wall)]);
+    }
+    std::printf("out of the cube: %.2f lm of 1000, expected 763.93\n", flux);
+    EXPECT_NEAR(flux, 763.932, 0.01 * 763.932);
+}
+
 } // namespace
 } // namespace atrium

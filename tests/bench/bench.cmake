@@ -40,3 +40,6 @@ target_link_libraries(direct_light_bench PRIVATE atrium_engine CLI11::CLI11)
 
 add_executable(relight_bench ${CMAKE_CURRENT_LIST_DIR}/relight_bench.cpp)
 target_link_libraries(relight_bench PRIVATE atrium_engine CLI11::CLI11)
+
+add_executable(edit_sequence_bench ${CMAKE_CURRENT_LIST_DIR}/edit_sequence_bench.cpp)
+target_link_libraries(edit_sequence_bench PRIVATE atrium_engine CLI11::CLI11)

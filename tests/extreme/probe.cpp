@@ -9,8 +9,10 @@
 
 #include <atomic>
 #include <cstdio>
+#include <mutex>
 #include <sys/resource.h>
 #include <thread>
+#include <utility>
 
 namespace atrium {
 namespace {
@@ -110,6 +112,35 @@ double slowest_stop(const Scene& scene, const SolveOptions& options, double whol
     return slowest;
 }
 
+/// Longest time within a solve in which nothing asks whether to stop, in seconds: of the clock or of the processor,
+/// whichever is less. No stop can take less at the worst moment.
+double longest_unasked(const Scene& scene, const SolveOptions& options) {
+    constexpr auto kFine = std::chrono::milliseconds(5); // between two looks at the processor's clock, which is slow to read
+    std::mutex guard;
+    auto asked = Clock::now();
+    auto sampled = asked;
+    double cpu = cpu_now();
+    double longest = 0.0;
+    const std::function<bool()> watch = [&] {
+        const std::lock_guard lock(guard);
+        const auto now = Clock::now();
+        const double wall = std::chrono::duration<double>(now - asked).count();
+        asked = now;
+        if (now - sampled >= kFine) {
+            const double then = std::exchange(cpu, cpu_now());
+            longest = std::max(longest, std::min(wall, cpu - then));
+            sampled = now;
+        }
+        return false;
+    };
+    RunContext context;
+    context.stop.watch(&watch);
+    GiEngine engine;
+    (void)engine.solve(scene, options, context);
+    watch();
+    return longest;
+}
+
 Json lux_at(const Json& points, const Scene& scene, const GiEngine& engine, const Solution& solution) {
     Json out = Json::array();
     for (const Json& p : points) {
@@ -205,6 +236,7 @@ int probe(const std::string& file, const Json& what) {
     }
     out["peak_mib"] = double(peak_resident_bytes()) / (1024.0 * 1024.0);
     out["stop"] = slowest_stop(scene, options, wall, what.value("stops", 6));
+    out["unasked"] = longest_unasked(scene, options);
     out["not_finite"] = wrong.not_finite;
     out["negative"] = wrong.negative;
     std::puts(out.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());

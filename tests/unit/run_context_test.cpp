@@ -21,15 +21,39 @@ TEST(StopFlag, StopsAtATimeThatMayBePutOffOrTakenBack) {
     const auto now = StopFlag::Clock::now();
     flag.request_stop_at(now + 1h);
     EXPECT_FALSE(flag.stop_requested());
-    flag.request_stop_at(now);
-    EXPECT_TRUE(flag.stop_requested());
+    flag.request_stop_at(now); // nobody has asked since
     flag.request_stop_at(StopFlag::Clock::time_point::max());
     EXPECT_FALSE(flag.stop_requested());
     flag.request_stop_at(StopFlag::Clock::time_point::min());
     EXPECT_TRUE(flag.stop_requested());
-    flag.request_stop();
+    const StopFlag plain;
+    plain.request_stop();
+    plain.request_stop_at(StopFlag::Clock::time_point::max());
+    EXPECT_TRUE(plain.stop_requested()) << "a plain request is final";
+}
+
+// A loop that was told to stop left something out; if the request could be taken back after that, its caller would take the
+// rest for the whole.
+TEST(StopFlag, AnAnswerIsFinal) {
+    const StopFlag flag;
+    flag.request_stop_at(StopFlag::Clock::now());
+    ASSERT_TRUE(flag.stop_requested());
     flag.request_stop_at(StopFlag::Clock::time_point::max());
-    EXPECT_TRUE(flag.stop_requested()) << "a plain request is final";
+    EXPECT_TRUE(flag.stop_requested());
+    flag.request_stop_at(StopFlag::Clock::now() + 1h);
+    EXPECT_TRUE(flag.stop_requested());
+}
+
+TEST(StopFlag, AWatchIsAskedEachTime) {
+    int asked = 0;
+    const std::function<bool()> watch = [&] { return ++asked == 3; };
+    const StopFlag flag;
+    flag.watch(&watch);
+    EXPECT_FALSE(flag.stop_requested());
+    EXPECT_FALSE(flag.stop_requested());
+    EXPECT_TRUE(flag.stop_requested());
+    EXPECT_TRUE(flag.stop_requested());
+    EXPECT_EQ(asked, 4);
 }
 
 TEST(RunContext, DeadlineAndFlagBothStop) {
