@@ -14,13 +14,6 @@ struct Vertex {
     vec3 color{1.0F};
 };
 
-std::uint32_t pack_normal(const vec3& n) {
-    const auto ten_bits = [](float x) {
-        return std::uint32_t(std::int32_t(std::lround(std::clamp(x, -1.0F, 1.0F) * 511.0F))) & 0x3FFU;
-    };
-    return ten_bits(n.x) | (ten_bits(n.y) << 10U) | (ten_bits(n.z) << 20U);
-}
-
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
 } // namespace

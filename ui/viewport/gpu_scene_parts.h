@@ -35,6 +35,14 @@ inline bool is_metal(const Material& m) {
     return kind == MaterialKind::Mirror || kind == MaterialKind::Glossy;
 }
 
+/// A unit normal as GL_INT_2_10_10_10_REV; never 0.
+inline std::uint32_t pack_normal(const vec3& n) {
+    const auto ten_bits = [](float x) {
+        return std::uint32_t(std::int32_t(std::lround(std::clamp(x, -1.0F, 1.0F) * 511.0F))) & 0x3FFU;
+    };
+    return ten_bits(n.x) | (ten_bits(n.y) << 10U) | (ten_bits(n.z) << 20U);
+}
+
 inline dmat4 relative_to_eye(const ViewItem& item, const dvec3& eye) {
     dmat4 m = item.world;
     m[3] -= dvec4(eye, 0.0);

@@ -31,6 +31,9 @@ void ViewportWidget::Impl::flush() {
         }
         const auto hit = tool_kind == ToolKind::Measure ? std::nullopt : pick(pointer.position);
         set_hovered(hit ? hit->node : NodeId{});
+        if (inspector.links() && inspector.point_at(doc.scene(), view.pick(controller.ray(pointer.position)))) {
+            widget.update();
+        }
     }
 }
 
@@ -70,6 +73,9 @@ void ViewportWidget::mousePressEvent(QMouseEvent* event) {
             return;
         }
         impl_->set_hovered({});
+        if (impl_->inspector.choice().links && impl_->tool_kind != ToolKind::Measure) {
+            impl_->inspector.choose(impl_->doc.scene(), impl_->view.pick(impl_->controller.ray(point)));
+        }
         impl_->tool().press({point, event->modifiers()});
         update();
     } else {

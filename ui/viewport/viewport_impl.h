@@ -5,6 +5,7 @@
 #include "ui/tools/measure_tool.h"
 #include "ui/tools/place_tool.h"
 #include "ui/tools/transform_tool.h"
+#include "ui/viewport/light_inspector.h"
 #include "ui/viewport/markers.h"
 #include "ui/viewport/picture_renderer.h"
 #include "ui/viewport/viewport_widget.h"
@@ -59,8 +60,16 @@ struct ViewportWidget::Impl final : ToolHost {
     LightShares shares;
     std::optional<FalseColor> false_color;
     std::vector<Plate> plates;
-    std::optional<FalseColor> legend_of; ///< that legend_image shows
-    QString legend_style;                ///< likewise: font, palette, pixel ratio
+    LightInspector inspector;
+    /// What legend_image shows.
+    struct LegendOf {
+        FalseColor scale;
+        QString title;
+        std::vector<float> bars;
+        QString style; ///< font, palette, pixel ratio
+        friend bool operator==(const LegendOf&, const LegendOf&) = default;
+    };
+    std::optional<LegendOf> legend_of;
     QImage legend_image;
     bool refine = false;
     bool items_dirty = true;
@@ -136,7 +145,7 @@ struct ViewportWidget::Impl final : ToolHost {
 
     // ---- words over the picture ----
     void collect_plates();
-
+    [[nodiscard]] std::optional<LegendOf> wanted_legend() const;
     void draw_points();
     /// Labels beside the points, where they are in sight, and beside the cursor.
     void collect_labels(double ratio);

@@ -18,12 +18,10 @@ constexpr double kLegendMargin = 12.0; ///< logical pixels
 void ViewportWidget::Impl::collect_plates() {
     plates.clear();
     const double ratio = widget.devicePixelRatioF();
-    if (false_color) {
-        const QString style = widget.font().key() + QString::number(widget.palette().cacheKey()) + QString::number(ratio);
-        if (legend_of != false_color || legend_style != style) {
-            legend_of = false_color;
-            legend_style = style;
-            legend_image = Legend(*false_color, widget.font(), widget.palette()).image(ratio);
+    if (const auto wanted = wanted_legend()) {
+        if (legend_of != wanted) {
+            legend_of = wanted;
+            legend_image = Legend(wanted->scale, wanted->title, wanted->bars, widget.font(), widget.palette()).image(ratio);
         }
         const dvec2 size = dvec2(legend_image.width(), legend_image.height()) / ratio;
         plates.push_back(
@@ -31,6 +29,22 @@ void ViewportWidget::Impl::collect_plates() {
              {widget.width() - size.x - kLegendMargin, std::max(kLegendMargin, 0.5 * (widget.height() - size.y))}});
     }
     collect_labels(ratio);
+    if (const QStringList lines = inspector.words(doc.scene()); !lines.isEmpty() && !walking) {
+        const QImage image = label_image(lines, widget.font(), widget.palette(), ratio);
+        plates.push_back({image, {kLegendMargin, kLegendMargin}});
+    }
+}
+
+std::optional<ViewportWidget::Impl::LegendOf> ViewportWidget::Impl::wanted_legend() const {
+    const QString style =
+        widget.font().key() + QString::number(widget.palette().cacheKey()) + QString::number(widget.devicePixelRatioF());
+    if (const auto elements = inspector.scale()) {
+        return LegendOf{elements->scale, elements->title, {}, style};
+    }
+    if (false_color) {
+        return LegendOf{*false_color, Legend::light_title(false_color->quantity), inspector.bars(), style};
+    }
+    return std::nullopt;
 }
 
 void ViewportWidget::Impl::draw_points() {
@@ -105,9 +119,11 @@ void ViewportWidget::paintGL() {
         draw_markers(impl_->overlay, impl_->markers, impl_->controller, selected, impl_->hovered_node);
         impl_->tool().draw(impl_->overlay);
     }
+    impl_->inspector.draw(impl_->overlay, impl_->controller);
     impl_->draw_points();
     draw_axes(impl_->overlay, impl_->controller);
     impl_->collect_plates();
+    const std::vector<ShownFigures> figures = impl_->inspector.figures();
     const double ratio = devicePixelRatioF();
     FrameInput in{impl_->doc.scene(),
                   impl_->view,
@@ -121,6 +137,7 @@ void ViewportWidget::paintGL() {
                   impl_->caustic_boxes,
                   impl_->texel_grid,
                   impl_->landings && impl_->solution ? impl_->solution->landings : nullptr,
+                  figures,
                   impl_->false_color,
                   impl_->plates,
                   impl_->refine,

@@ -18,7 +18,8 @@ constexpr double kMeanJump = 8.0;
 
 } // namespace
 
-ViewportWidget::Impl::Impl(ViewportWidget& w, Document& d, EngineLink& e) : widget(w), doc(d), engine(e) {
+ViewportWidget::Impl::Impl(ViewportWidget& w, Document& d, EngineLink& e)
+    : widget(w), doc(d), engine(e), inspector([this]() -> const Scene& { return doc.scene(); }, &w) {
     tools[0] = std::make_unique<SelectTool>(*this);
     tools[1] = std::make_unique<MoveTool>(*this);
     tools[2] = std::make_unique<RotateTool>(*this);
@@ -57,6 +58,8 @@ ViewportWidget::Impl::Impl(ViewportWidget& w, Document& d, EngineLink& e) : widg
         picture_changed();
     });
     QObject::connect(doc.selection(), &Selection::changed, &widget, [this] { selection_changed(); });
+    QObject::connect(&inspector, &LightInspector::changed, &widget, [this] { widget.update(); });
+    QObject::connect(&inspector, &LightInspector::figures_changed, &widget, [this] { picture_changed(); });
     QObject::connect(&engine, &EngineLink::solution_changed, &widget, [this] { take_solution(); });
 }
 
@@ -126,6 +129,7 @@ void ViewportWidget::Impl::selection_changed() {
             selected.insert(below);
         }
     }
+    inspector.select(selected);
     renderer.invalidate_mask();
     if (texel_grid || landings) {
         renderer.invalidate_picture();
@@ -153,6 +157,7 @@ void ViewportWidget::Impl::document_reset() {
     place_tool.cancel();
     isolate(std::nullopt);
     points.clear();
+    inspector.clear();
     solution.reset();
     stop_awaiting();
     mean_radiance = 0;
@@ -239,6 +244,7 @@ void ViewportWidget::Impl::step_upload() {
 void ViewportWidget::Impl::show_awaited() {
     solution = std::move(awaited);
     stop_awaiting();
+    inspector.take(solution);
     if (solution && solution->mean_radiance > 0.0) {
         // The picture must not pump while one edits: the mean is taken over while the first picture converges,
         // and afterwards only when the light has changed out of all proportion.

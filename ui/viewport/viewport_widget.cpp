@@ -107,6 +107,7 @@ void ViewportWidget::set_cut_walls(bool on) {
 void ViewportWidget::set_light_shares(const LightShares& shares) {
     if (!(shares == impl_->shares)) {
         impl_->shares = shares;
+        impl_->inspector.measure(impl_->false_color, shares);
         impl_->probe_changed();
         impl_->picture_changed();
     }
@@ -117,11 +118,22 @@ void ViewportWidget::set_false_color(const std::optional<FalseColor>& scale) {
     const auto valid = scale ? std::optional(valid_scale(*scale)) : scale;
     if (valid != impl_->false_color) {
         impl_->false_color = valid;
+        impl_->inspector.measure(valid, impl_->shares);
         impl_->picture_changed();
     }
 }
 
 const std::optional<FalseColor>& ViewportWidget::false_color() const { return impl_->false_color; }
+void ViewportWidget::set_inspection(const InspectionChoice& choice) { impl_->inspector.set_choice(choice); }
+const LightInspector& ViewportWidget::inspector() const { return impl_->inspector; }
+bool ViewportWidget::inspect_element(const QPointF& point) {
+    impl_->sync();
+    if (impl_->inspector.choose(impl_->doc.scene(), impl_->view.pick(impl_->controller.ray(to_vec(point))))) {
+        update();
+    }
+    return impl_->inspector.links().has_value();
+}
+
 const MeasuringPoints& ViewportWidget::measuring_points() const {
     impl_->sync();
     return impl_->points;
