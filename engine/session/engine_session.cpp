@@ -260,6 +260,15 @@ struct EngineSession::Impl {
     void publish(Picture picture) {
         latest_revision = revision; // of the scene being solved; publish() is called during a solve only
         latest = std::move(picture);
+        drop_insides();
+    }
+    /// Insides that nobody wants any more go, with their memory.
+    void drop_insides() {
+        if (!wanted.insides && latest && latest->insides) {
+            auto bare = std::make_shared<Solution>(*latest);
+            bare->insides.reset();
+            latest = std::move(bare);
+        }
     }
     /// A complete picture that does not tell what is wanted is made anew.
     void ask_for_wishes() {
@@ -421,11 +430,7 @@ void EngineSession::keep_landings(bool on) {
 void EngineSession::keep_insides(bool on) {
     impl_->steer([this, on] {
         impl_->wanted.insides = on;
-        if (!on && impl_->latest && impl_->latest->insides) { // their memory goes with them
-            auto bare = std::make_shared<Solution>(*impl_->latest);
-            bare->insides.reset();
-            impl_->latest = std::move(bare);
-        }
+        impl_->drop_insides();
         impl_->ask_for_wishes();
     });
 }

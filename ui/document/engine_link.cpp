@@ -58,7 +58,7 @@ void EngineLink::keep_landings(bool on) {
 
 void EngineLink::keep_insides(bool on) {
     session_->keep_insides(on);
-    Q_EMIT status_changed();
+    on_wake(); // turned off, they are gone already
 }
 
 void EngineLink::on_edited(const SceneEdit& edit) {
