@@ -26,9 +26,11 @@ namespace {
 /// program.
 class Screenshot : public QObject {
 public:
-    /// `points` to be measured, in shares of the view's width and height.
-    Screenshot(atrium::ui::MainWindow& window, QString file, int limit_ms, QList<QPointF> points)
-        : QObject(&window), window_(window), file_(std::move(file)), points_(std::move(points)) {
+    /// `points` to be measured and `inspected` ones, whose elements are shown with their links: in shares of the view's
+    /// width and height.
+    Screenshot(atrium::ui::MainWindow& window, QString file, int limit_ms, QList<QPointF> points, QList<QPointF> inspected)
+        : QObject(&window), window_(window), file_(std::move(file)), points_(std::move(points)),
+          inspected_(std::move(inspected)) {
         connect(&window_.engine(), &atrium::ui::EngineLink::status_changed, this, [this] {
             const auto solution = window_.engine().solution();
             if (!solution || !solution->final || window_.engine().stale()) {
@@ -55,7 +57,7 @@ private:
         if (taken_) {
             return;
         }
-        if (window_.false_color_bar().fitting()) {
+        if (window_.false_color_bar().fitting() || window_.viewport().inspector().busy()) {
             QTimer::singleShot(500, this, [this] { take(); });
             return;
         }
@@ -63,6 +65,10 @@ private:
         for (const QPointF& point : points_) {
             auto& view = window_.viewport();
             view.add_measuring_point({point.x() * view.width(), point.y() * view.height()});
+        }
+        for (const QPointF& point : inspected_) {
+            auto& view = window_.viewport();
+            view.inspect_element({point.x() * view.width(), point.y() * view.height()});
         }
         const bool saved = window_.grab().save(file_);
         if (!saved) {
@@ -73,6 +79,7 @@ private:
     atrium::ui::MainWindow& window_;
     QString file_;
     QList<QPointF> points_;
+    QList<QPointF> inspected_;
     bool complete_ = false;
     bool soon_ = false;
     bool taken_ = false;
@@ -159,7 +166,12 @@ int main(int argc, char** argv) {
                                      QObject::tr("with --screenshot: put a measuring point at this place of the view, in "
                                                  "shares of its width and height; may be repeated"),
                                      QStringLiteral("X,Y"));
-    const QList<QCommandLineOption> options{screenshot, wait, size, sample, select, panel, command, measure};
+    const QCommandLineOption inspect(
+        QStringLiteral("inspect-at"),
+        QObject::tr("with --screenshot and --command element_links: show the links of the element "
+                    "at this place of the view, in shares of its width and height"),
+        QStringLiteral("X,Y"));
+    const QList<QCommandLineOption> options{screenshot, wait, size, sample, select, panel, command, measure, inspect};
     parser.addOptions(options);
     if (argc == 2 && std::string_view(argv[1]).substr(0, 8) == "--write-") { // for the build, from the same tables as --help
         const auto told = program_help(parser, QList<QCommandLineOption>{help, version} + options);
@@ -184,7 +196,11 @@ int main(int argc, char** argv) {
     if (parser.isSet(command)) {
         QObject::connect(&window.files(), &atrium::ui::FileController::opened, &window, [&] {
             for (const QString& name : parser.values(command)) {
-                if (auto* action = window.findChild<QAction*>(name)) {
+                auto* action = window.findChild<QAction*>(name);
+                if (action != nullptr && !action->isEnabled()) { // what needs the light waits for it
+                    QObject::connect(
+                        action, &QAction::enabledChanged, action, [action] { action->trigger(); }, Qt::SingleShotConnection);
+                } else if (action != nullptr) {
                     action->trigger();
                 }
             }
@@ -217,12 +233,16 @@ int main(int argc, char** argv) {
         window.files().open_sample();
     }
     if (parser.isSet(screenshot)) {
-        QList<QPointF> points;
-        for (const QString& place : parser.values(measure)) {
-            const QStringList numbers = place.split(QLatin1Char(','));
-            points.append({numbers.value(0).toDouble(), numbers.value(1).toDouble()});
-        }
-        new Screenshot(window, parser.value(screenshot), int(parser.value(wait).toDouble() * 1000), points);
+        const auto places = [&](const QCommandLineOption& option) {
+            QList<QPointF> out;
+            for (const QString& place : parser.values(option)) {
+                const QStringList numbers = place.split(QLatin1Char(','));
+                out.append({numbers.value(0).toDouble(), numbers.value(1).toDouble()});
+            }
+            return out;
+        };
+        new Screenshot(window, parser.value(screenshot), int(parser.value(wait).toDouble() * 1000), places(measure),
+                       places(inspect));
     } else {
         window.files().offer_recovery();
     }

@@ -22,6 +22,8 @@ struct Comparison {
     double noise = 0;            ///< standard error of the mean square that noise alone causes
     double bias = 0;
     double bias_error = 0;
+    std::vector<std::size_t> used; ///< places where the truth is that of the same surface: not where two lie back to back
+    std::vector<ReferenceReading> truth;
 };
 
 double mean_of(const std::vector<double>& values) {
@@ -37,19 +39,18 @@ Comparison compare(const std::vector<SensorReading>& ours, const std::vector<Ref
     double sum = 0.0;
     double true_sum = 0.0;
     double variance = 0.0;
-    std::vector<std::size_t> used; // where the truth is that of the same surface: not where two lie back to back
     for (std::size_t i = 0; i < ours.size(); ++i) {
         if (!truth[i].on_surface) {
             continue;
         }
-        used.push_back(i);
+        out.used.push_back(i);
         sum += luminance(ours[i].irradiance);
         true_sum += luminance(truth[i].irradiance);
         variance += truth[i].standard_error * truth[i].standard_error;
     }
-    const double floor = kDark * true_sum / double(std::max<std::size_t>(used.size(), 1));
+    const double floor = kDark * true_sum / double(std::max<std::size_t>(out.used.size(), 1));
     double noise = 0.0;
-    for (const std::size_t i : used) {
+    for (const std::size_t i : out.used) {
         const double e = luminance(ours[i].irradiance);
         const double r = luminance(truth[i].irradiance);
         const double s = truth[i].standard_error;
@@ -63,7 +64,7 @@ Comparison compare(const std::vector<SensorReading>& ours, const std::vector<Ref
         // Variance of (d + noise)^2 - s^2 about d^2.
         noise += 2.0 * rest * rest + 4.0 * rest * std::max(out.squares.back(), 0.0);
     }
-    out.noise = std::sqrt(noise) / double(std::max<std::size_t>(used.size(), 1));
+    out.noise = std::sqrt(noise) / double(std::max<std::size_t>(out.used.size(), 1));
     if (true_sum > 0.0) {
         out.bias = sum / true_sum - 1.0;
         out.bias_error = std::sqrt(variance) / true_sum;
@@ -98,8 +99,11 @@ AuditSettings audit_settings(SolverSettings::Quality quality) {
     return {};
 }
 
-Result<ErrorAudit> audit_error(const Scene& scene, const Solution& solution, const AuditSettings& settings,
-                               const RunContext& context) {
+namespace {
+
+/// audit_error(), and its places where somebody wants them.
+Result<ErrorAudit> audit(const Scene& scene, const Solution& solution, const AuditSettings& settings,
+                         const RunContext& context, std::vector<AuditPlace>* told) {
     const auto start = RunContext::Clock::now();
     const std::vector<SensorPlace> places = seen_places(scene, settings.points, 0xAD17U + settings.seed, context);
     if (context.should_stop()) {
@@ -132,6 +136,7 @@ Result<ErrorAudit> audit_error(const Scene& scene, const Solution& solution, con
             return fail("", "", "the audit was stopped", "Give it more time.");
         }
         found = compare(ours, truth->points);
+        found.truth = truth->points;
         out.paths = truth->run.paths;
         out.rays += truth->run.rays;
         const double per_path = double(truth->run.rays) / double(truth->run.paths);
@@ -150,6 +155,13 @@ Result<ErrorAudit> audit_error(const Scene& scene, const Solution& solution, con
     if (found.squares.empty()) {
         return nothing();
     }
+    if (told != nullptr) {
+        for (std::size_t k = 0; k < found.used.size(); ++k) {
+            const std::size_t i = found.used[k];
+            told->push_back({places[i].point, places[i].normal, double(luminance(ours[i].irradiance)),
+                             double(luminance(found.truth[i].irradiance)), found.truth[i].standard_error, found.squares[k]});
+        }
+    }
     out.points = std::uint32_t(found.squares.size());
     double low = 0.0;
     double high = 0.0;
@@ -166,16 +178,32 @@ Result<ErrorAudit> audit_error(const Scene& scene, const Solution& solution, con
     return out;
 }
 
+} // namespace
+
+Result<ErrorAudit> audit_error(const Scene& scene, const Solution& solution, const AuditSettings& settings,
+                               const RunContext& context) {
+    return audit(scene, solution, settings, context, nullptr);
+}
+
+Result<std::vector<AuditPlace>> audit_places(const Scene& scene, const Solution& solution, const AuditSettings& settings,
+                                             const RunContext& context) {
+    std::vector<AuditPlace> places;
+    if (const auto found = audit(scene, solution, settings, context, &places); !found) {
+        return tl::unexpected(found.error());
+    }
+    return places;
+}
+
 std::shared_ptr<const Solution> audited(const Scene& scene, std::shared_ptr<const Solution> solution,
                                         const AuditSettings& settings, const RunContext& context) {
-    const auto audit = audit_error(scene, *solution, settings, context);
-    if (!audit) {
+    const auto found = audit_error(scene, *solution, settings, context);
+    if (!found) {
         return solution;
     }
     auto out = std::make_shared<Solution>(*solution);
-    out->statistics.audit = *audit;
+    out->statistics.audit = *found;
     // Where noise hides an error that is smaller than itself, the bound is what is known.
-    out->statistics.error_estimate = audit->rms > 0.0 ? audit->rms : audit->high;
+    out->statistics.error_estimate = found->rms > 0.0 ? found->rms : found->high;
     return out;
 }
 

@@ -6,6 +6,7 @@
 #include "engine/solver/solution.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace atrium {
 
@@ -28,6 +29,19 @@ AuditSettings audit_settings(SolverSettings::Quality quality);
 /// error where no surface scatters light that light can reach, or when stopped.
 Result<ErrorAudit> audit_error(const Scene& scene, const Solution& solution, const AuditSettings& settings,
                                const RunContext& context);
+
+/// A place of an audit: what the solution says there and what the reference does.
+struct AuditPlace {
+    dvec3 point{0.0};            ///< world
+    dvec3 normal{0.0, 1.0, 0.0}; ///< unit, of the side
+    double computed = 0;         ///< lux, luminance
+    double reference = 0;
+    double noise = 0;  ///< standard error of the reference
+    double square = 0; ///< of the relative difference, the noise's variance taken out: may be negative by chance
+};
+/// The places that audit_error() asks at for the same settings, one by one, and the same way of looking.
+Result<std::vector<AuditPlace>> audit_places(const Scene& scene, const Solution& solution, const AuditSettings& settings,
+                                             const RunContext& context);
 
 /// The same solution with an audit in its statistics, which then is its error_estimate too; as it was where the audit could
 /// not be made or was stopped.

@@ -47,11 +47,13 @@ double amount_at(const Side& side, std::size_t first, vec2 at, LightQuantity qua
 
 } // namespace
 
-LightRange light_range(const Scene& scene, const Solution& solution, LightQuantity quantity, const LightShares& shares) {
+std::vector<double> light_amounts(const Scene& scene, const Solution& solution, LightQuantity quantity,
+                                  const LightShares& shares, const std::unordered_set<NodeId>* of) {
     std::vector<Side> sides;
     for (const auto& layer : solution.surfaces) {
         const Node* node = scene.nodes.find(layer->node);
-        if (node == nullptr || layer->irradiance_front.size() < layer->mesh->positions.size()) {
+        if ((of != nullptr && !of->contains(layer->node)) || node == nullptr ||
+            layer->irradiance_front.size() < layer->mesh->positions.size()) {
             continue;
         }
         const Material* of_node = scene.material_of(*node, layer->part);
@@ -87,10 +89,27 @@ LightRange light_range(const Scene& scene, const Solution& solution, LightQuanti
             }
         }
     }
+    std::sort(amounts.begin(), amounts.end());
+    return amounts;
+}
+
+std::vector<float> light_bars(const FalseColor& scale, std::span<const double> amounts, std::size_t bars) {
+    std::vector<float> out(amounts.empty() ? 0 : bars, 0.0F);
+    for (const double amount : amounts) {
+        ++out[std::min(std::size_t(std::max(scale_place(scale, amount), 0.0F) * float(bars)), bars - 1)];
+    }
+    const float most = out.empty() ? 1.0F : *std::max_element(out.begin(), out.end());
+    for (float& bar : out) {
+        bar /= most;
+    }
+    return out;
+}
+
+LightRange light_range(const Scene& scene, const Solution& solution, LightQuantity quantity, const LightShares& shares) {
+    const std::vector<double> amounts = light_amounts(scene, solution, quantity, shares, nullptr);
     if (amounts.empty()) {
         return {};
     }
-    std::sort(amounts.begin(), amounts.end());
     const auto at = [&](double share) { return amounts[std::size_t(share * double(amounts.size() - 1))]; };
     return {std::max(at(kDark), kHidden * at(0.5)), at(1.0 - kBright)};
 }

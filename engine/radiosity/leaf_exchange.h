@@ -6,6 +6,7 @@
 #include "engine/radiosity/solve_report.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace atrium {
@@ -35,11 +36,17 @@ public:
     [[nodiscard]] double error_estimate(const Hierarchy& solved, const SolveReport& report) const;
     [[nodiscard]] std::size_t memory_bytes() const;
 
-private:
+    /// Light between two leaves: what `other` sends adds K B / A to the irradiance.
     struct Entry {
         std::uint32_t other; ///< index into leaves()
         float k;             ///< square metres
     };
+    /// Everything that a leaf (index into leaves()) exchanges light with, by ascending `other`.
+    [[nodiscard]] std::span<const Entry> row(std::size_t leaf) const {
+        return std::span(entries_).subspan(first_[leaf], first_[leaf + 1] - first_[leaf]);
+    }
+
+private:
     std::vector<std::uint32_t> leaves_;
     std::vector<std::size_t> first_; ///< per leaf, into entries_, ordered by `other`; one more at the end
     std::vector<Entry> entries_;

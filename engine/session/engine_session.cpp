@@ -53,6 +53,11 @@ struct EngineSession::Impl {
         Scene scene;
         std::uint64_t revision = 0;
     };
+    /// What solutions are to tell beside the light.
+    struct Wishes {
+        bool landings = false;
+        bool insides = false;
+    };
     struct Ended {
         QualityScheduler::Outcome outcome = QualityScheduler::Outcome::Failed;
         Picture picture; ///< may be null
@@ -126,12 +131,12 @@ struct EngineSession::Impl {
         fraction = 0.0;
         message.clear();
         const StopFlag stop = running_stop;
-        const bool landings = landings_wanted;
+        const Wishes wishes = wanted;
         const Picture complete = latest;
         lock.unlock();
         tell();
         Ended ended = kind == QualityScheduler::Kind::Audit ? audit_guarded(stop, complete, scene.settings.quality)
-                                                            : solve_guarded(stop, kind, good_on_show, landings);
+                                                            : solve_guarded(stop, kind, good_on_show, wishes);
         const bool updatable = ended.picture && ended.picture->updatable;
         lock.lock();
         if (ended.picture && !scheduler.abandoned() && ended.picture != latest) {
@@ -141,7 +146,7 @@ struct EngineSession::Impl {
             message = std::move(ended.message);
         }
         scheduler.on_finished(ended.outcome, updatable, audit && latest && latest->statistics.audit.points == 0);
-        ask_for_landings();
+        ask_for_wishes();
         phase.clear();
         last_duration = Clock::now() - started;
     }
@@ -170,7 +175,7 @@ struct EngineSession::Impl {
         }
     }
 
-    Ended solve_guarded(const StopFlag& stop, QualityScheduler::Kind kind, bool good_on_show, bool landings) {
+    Ended solve_guarded(const StopFlag& stop, QualityScheduler::Kind kind, bool good_on_show, Wishes wishes) {
         using Outcome = QualityScheduler::Outcome;
         RunContext context;
         context.stop = stop;
@@ -180,7 +185,8 @@ struct EngineSession::Impl {
         options.hurried = kind == QualityScheduler::Kind::Hurried;
         options.settle = kind == QualityScheduler::Kind::Settle;
         options.skip_first_picture = good_on_show;
-        options.keep_landings = landings;
+        options.keep_landings = wishes.landings;
+        options.keep_insides = wishes.insides;
         try {
             auto result = solve(scene, options, context, [&](const Picture& picture) {
                 on_snapshot(picture);
@@ -254,11 +260,24 @@ struct EngineSession::Impl {
     void publish(Picture picture) {
         latest_revision = revision; // of the scene being solved; publish() is called during a solve only
         latest = std::move(picture);
+        drop_insides();
     }
-    /// A complete picture that does not tell where particles landed is made anew where that is wanted.
-    void ask_for_landings() {
-        if (landings_wanted && scheduler.state() == QualityScheduler::State::Idle && latest && latest->final &&
-            !latest->landings && latest->statistics.particles_stored > 0) {
+    /// Insides that nobody wants any more go, with their memory.
+    void drop_insides() {
+        if (!wanted.insides && latest && latest->insides) {
+            auto bare = std::make_shared<Solution>(*latest);
+            bare->insides.reset();
+            latest = std::move(bare);
+        }
+    }
+    /// A complete picture that does not tell what is wanted is made anew.
+    void ask_for_wishes() {
+        if (scheduler.state() != QualityScheduler::State::Idle || !latest || !latest->final) {
+            return;
+        }
+        const bool landings = wanted.landings && !latest->landings && latest->statistics.particles_stored > 0;
+        const bool insides = wanted.insides && !latest->insides && latest->updatable;
+        if (landings || insides) {
             scheduler.on_edit(Clock::now(), true, false);
         }
     }
@@ -364,7 +383,7 @@ struct EngineSession::Impl {
     mutable std::mutex mutex;
     std::condition_variable changed;
     bool quit = false;
-    bool landings_wanted = false;
+    Wishes wanted;
     std::optional<Load> pending_load;
     EditMailbox mailbox;
     QualityScheduler scheduler;
@@ -404,8 +423,15 @@ void EngineSession::resume() {
 
 void EngineSession::keep_landings(bool on) {
     impl_->steer([this, on] {
-        impl_->landings_wanted = on;
-        impl_->ask_for_landings();
+        impl_->wanted.landings = on;
+        impl_->ask_for_wishes();
+    });
+}
+void EngineSession::keep_insides(bool on) {
+    impl_->steer([this, on] {
+        impl_->wanted.insides = on;
+        impl_->drop_insides();
+        impl_->ask_for_wishes();
     });
 }
 

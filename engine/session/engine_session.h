@@ -64,6 +64,8 @@ public:
     /// Whether solutions tell where particles landed (SolveOptions::keep_landings). Turned on, the next one that does
     /// follows at once where the engine keeps what that needs, else after a solve.
     void keep_landings(bool on);
+    /// Likewise for Solution::insides. Light that the engine did not compute itself (a stored one) is left as it is.
+    void keep_insides(bool on);
 
     [[nodiscard]] std::shared_ptr<const Solution> latest() const; ///< may be null
     [[nodiscard]] SessionStatus status() const;

@@ -92,6 +92,9 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         if (options.keep_landings) {
             solution->landings = landing_places(*s.rays, s.particles.get());
         }
+        if (options.keep_insides && s.live) {
+            solution->insides = s.tell_insides();
+        }
         solution->statistics = statistics;
         latest = std::move(solution);
         if (on_snapshot) {
@@ -383,7 +386,9 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     }
     publish(std::move(set), true);
     if (options.keep_for_updates) {
-        s.live->shown = latest;
+        auto shown = std::make_shared<Solution>(*latest);
+        shown->insides.reset();
+        s.live->shown = std::move(shown);
         keep_question(s, scene, options);
         impl_ = std::move(fresh);
     }

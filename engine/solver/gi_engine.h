@@ -28,6 +28,8 @@ struct SolveOptions {
     bool keep_for_updates = false;
     /// Solutions tell where particles landed. Asked for afterwards, with keep_for_updates, nothing is computed anew.
     bool keep_landings = false;
+    /// Likewise of Solution::insides, of complete solutions and of updates that are not in a hurry; needs keep_for_updates.
+    bool keep_insides = false;
     bool hurried = false; ///< solve() hands on to update()
     bool settle = false;  ///< likewise, and that is not in a hurry: as exact as a new solution, or nearly
     /// Light is on show that is better than a first, coarse picture: none is made.

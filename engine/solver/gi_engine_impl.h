@@ -18,6 +18,7 @@
 #include "engine/raycast/ray_scene.h"
 #include "engine/raycast/scene_charts.h"
 #include "engine/solver/gi_engine.h"
+#include "engine/solver/insides.h"
 #include "engine/solver/lamp_moves.h"
 #include "engine/solver/quality.h"
 #include "engine/solver/reflected_change.h"
@@ -57,7 +58,7 @@ struct GiEngine::Impl {
         Scene scene;                                     ///< what of it light depends on
         SolveOptions options;                            ///< of the solve
         bool untouched = true;                           ///< no update since
-        std::unique_ptr<LeafExchange> exchange;          ///< which leaves light which
+        std::shared_ptr<const LeafExchange> exchange;    ///< which leaves light which
         std::unique_ptr<ReflectedChange> reflected;      ///< null until something moves
         std::map<std::uint32_t, Displacement> displaced; ///< by surface: what moved since the complete solution
         LightChange owed;                                ///< what a stopped update left undone
@@ -73,6 +74,7 @@ struct GiEngine::Impl {
         std::unique_ptr<LampMoves> lamps;       ///< null until a lamp moves
         std::vector<float> sky_over_mirrors;    ///< LeafSurroundings::sky; empty where no mirror or lens shows any
         double mean_radiance = 0.0;             ///< as shown
+        std::weak_ptr<const Insides> insides;   ///< as told last; `shown` has none
     };
     std::unique_ptr<Live> live;
     CausticSettings caustic_settings;
@@ -83,6 +85,12 @@ struct GiEngine::Impl {
     LightShafts mirror_shafts_before;
     LightShafts lamp_shafts, emitter_shafts, mirror_shafts, sky_shafts;
 
+    // To be looked at; with `live` complete. Whoever shows it keeps it.
+    std::shared_ptr<const Insides> tell_insides() {
+        auto out = make_insides(*rays, hierarchy, live->exchange, particles.get(), targets.get());
+        live->insides = out;
+        return out;
+    }
     [[nodiscard]] bool nothing_direct() const { return punctual->empty() && emitters.empty(); }
     // Direct light in parts, the sharpest and cheapest first; none that the scene does not have. `settings` must outlive it.
     [[nodiscard]] std::vector<DirectPart> direct_parts(const GatherSettings& settings) const {

@@ -461,6 +461,12 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     std::erase_if(solution->caustic_records,
                   [&](const CausticRecord& r) { return scene.nodes.find(r.node) == nullptr || !scene.shown(r.node); });
     solution->landings = options.keep_landings ? landing_places(*s.rays, s.particles.get()) : nullptr;
+    if (options.keep_insides) {
+        solution->insides = options.settle ? nullptr : live.insides.lock(); // a hand does not wait for copies
+        if (!solution->insides) {
+            solution->insides = s.tell_insides();
+        }
+    }
     solution->mean_radiance = live.relight ? live.relight->mean_radiance * live.relight->brightening(s) : live.mean_radiance;
     if ((live.relight || live.lamps) && live.exchange) {
         s.energy_balance(*live.exchange, solution->statistics);

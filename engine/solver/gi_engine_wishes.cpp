@@ -80,7 +80,8 @@ std::shared_ptr<const Solution> GiEngine::follow_wishes(const Scene& scene, cons
     std::vector<CausticWish> wishes = caustic_wishes(scene, *s.rays);
     const std::vector<std::uint32_t> changed = surfaces_with_new_wishes(s.wishes, wishes);
     const bool asked_for_landings = options.keep_landings && !live.shown->landings;
-    if ((changed.empty() && !asked_for_landings) || !(light_part(scene) == live.scene)) {
+    const bool asked_for_insides = options.keep_insides && live.insides.expired();
+    if ((changed.empty() && !asked_for_landings && !asked_for_insides) || !(light_part(scene) == live.scene)) {
         return nullptr;
     }
     s.wishes = std::move(wishes);
@@ -107,7 +108,12 @@ std::shared_ptr<const Solution> GiEngine::follow_wishes(const Scene& scene, cons
     }
     s.tell_left_out(solution->statistics.features);
     live.shown = solution;
-    return solution;
+    if (!options.keep_insides) {
+        return solution;
+    }
+    auto with_insides = std::make_shared<Solution>(*solution);
+    with_insides->insides = asked_for_insides ? s.tell_insides() : live.insides.lock();
+    return with_insides;
 }
 
 } // namespace atrium

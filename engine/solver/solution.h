@@ -20,6 +20,8 @@ struct SurfaceLandings {
     std::vector<vec3> places; ///< in the node's own coordinates
 };
 
+struct Insides; // insides.h
+
 /// Result of a solve at one revision of the document. Never changed after it was published; surfaces are shared between
 /// snapshots while unchanged.
 struct Solution {
@@ -29,6 +31,9 @@ struct Solution {
     std::vector<CausticRecord> caustic_records; ///< what was decided about surfaces that caustic light falls on
     /// Null unless asked for (SolveOptions::keep_landings): 12 bytes a landing. Not kept in project files.
     std::shared_ptr<const std::vector<SurfaceLandings>> landings;
+    /// Null unless asked for (SolveOptions::keep_insides): elements, links and ways of particles, to be looked at
+    /// (engine/debug). Not kept in project files.
+    std::shared_ptr<const Insides> insides;
     Statistics statistics;
     bool updatable = false;   ///< the engine keeps what GiEngine::update() starts from; not kept in project files
     double mean_radiance = 0; ///< log-average of shown diffuse radiance, cd/m2: what automatic exposure starts from

@@ -56,6 +56,11 @@ void EngineLink::keep_landings(bool on) {
     Q_EMIT status_changed();
 }
 
+void EngineLink::keep_insides(bool on) {
+    session_->keep_insides(on);
+    on_wake(); // turned off, they are gone already
+}
+
 void EngineLink::on_edited(const SceneEdit& edit) {
     if (load_pending_) {
         load(nullptr); // takes the scene with this edit in it

@@ -25,6 +25,7 @@ public:
     void cancel();
     void resume();
     void keep_landings(bool on); ///< solutions tell where particles landed; off at first
+    void keep_insides(bool on);  ///< solutions tell their elements, links and ways of particles; off at first
 
 Q_SIGNALS:
     void solution_changed();

@@ -18,6 +18,7 @@ constexpr double kGap = 6.0;
 constexpr double kTick = 4.0;
 constexpr double kRadius = 4.0;
 constexpr double kLines = 15.0; ///< lines of text that the column is high
+constexpr double kBars = 56.0;  ///< width of the longest bar, with its gap
 
 QString tr_legend(const char* text) { return QCoreApplication::translate("Legend", text); }
 
@@ -69,11 +70,18 @@ QString amount_text(double amount) {
     return text;
 }
 
+QString Legend::light_title(LightQuantity quantity) {
+    return QStringLiteral("%1\n%2").arg(quantity_text(quantity), QString::fromUtf8(unit_name(quantity)));
+}
+
 Legend::Legend(const FalseColor& scale, const QFont& font, const QPalette& palette)
-    : scale_(valid_scale(scale)), font_(font), palette_(palette), values_(round_values(scale_)) {
+    : Legend(scale, light_title(scale.quantity), {}, font, palette) {}
+
+Legend::Legend(const FalseColor& scale, const QString& title, const std::vector<float>& bars, const QFont& font,
+               const QPalette& palette)
+    : scale_(valid_scale(scale)), font_(font), palette_(palette), values_(round_values(scale_)), title_(title), bars_(bars) {
     const QFontMetricsF metrics(font_);
     line_ = metrics.height();
-    title_ = QStringLiteral("%1\n%2").arg(quantity_text(scale_.quantity), QString::fromUtf8(unit_name(scale_.quantity)));
     // The ends are always written, and round amounts where they leave them room.
     const double column = kLines * line_;
     const auto height_of = [&](double value) { return double(scale_place(scale_, value)) * column; };
@@ -98,12 +106,17 @@ Legend::Legend(const FalseColor& scale, const QFont& font, const QPalette& palet
         below = at;
         return false;
     });
-    double widest = metrics.horizontalAdvance(quantity_text(scale_.quantity)) - kColumn - kGap;
+    const double beside = bars_.empty() ? 0.0 : kBars;
+    double widest = -kColumn - kGap - beside;
+    for (const QString& line : title_.split(QLatin1Char('\n'))) {
+        widest = std::max(widest, metrics.horizontalAdvance(line) - kColumn - kGap - beside);
+    }
     for (const double value : values_) {
         texts_.append(amount_text(value));
         widest = std::max(widest, metrics.horizontalAdvance(texts_.back()));
     }
-    size_ = QSizeF(std::ceil(2.0 * kMargin + kColumn + kGap + widest), std::ceil(2.0 * kMargin + 3.0 * line_ + column));
+    size_ =
+        QSizeF(std::ceil(2.0 * kMargin + beside + kColumn + kGap + widest), std::ceil(2.0 * kMargin + 3.0 * line_ + column));
 }
 
 void Legend::paint(QPainter& painter, const QPointF& top_left) const {
@@ -115,7 +128,8 @@ void Legend::paint(QPainter& painter, const QPointF& top_left) const {
     painter.setPen(text);
     painter.drawText(QRectF(kMargin, kMargin - 1.0, size_.width() - 2.0 * kMargin, 2.0 * line_),
                      Qt::AlignLeft | Qt::AlignTop, title_);
-    const QRectF column(kMargin, kMargin + 2.5 * line_, kColumn, kLines * line_);
+    const double beside = bars_.empty() ? 0.0 : kBars;
+    const QRectF column(kMargin + beside, kMargin + 2.5 * line_, kColumn, kLines * line_);
     QImage colors(1, int(kMapColors), QImage::Format_RGB32);
     for (int i = 0; i < int(kMapColors); ++i) {
         colors.setPixel(0, i, 0xFF000000U | color_map()[kMapColors - 1 - std::size_t(i)]);
@@ -124,6 +138,12 @@ void Legend::paint(QPainter& painter, const QPointF& top_left) const {
     painter.drawImage(column, colors);
     QColor rim = text;
     rim.setAlphaF(0.6F);
+    const double step = column.height() / double(std::max<std::size_t>(bars_.size(), 1));
+    for (std::size_t i = 0; i < bars_.size(); ++i) {
+        const double length = double(std::clamp(bars_[i], 0.0F, 1.0F)) * (kBars - 2.0);
+        const double low = column.bottom() - double(i) * step;
+        painter.fillRect(QRectF(column.left() - 1.0 - length, low - step, length, step), rim);
+    }
     painter.setBrush(Qt::NoBrush);
     painter.setPen(QPen(rim, 1.0));
     painter.drawRect(column);

@@ -21,6 +21,12 @@ QString amount_text(double amount);
 class Legend {
 public:
     Legend(const FalseColor& scale, const QFont& font, const QPalette& palette);
+    /// The scale of something else than light: `title` has two lines, a name and a unit. `bars`: from the low end to the
+    /// high one, 0 to 1, drawn beside the column; none where empty.
+    Legend(const FalseColor& scale, const QString& title, const std::vector<float>& bars, const QFont& font,
+           const QPalette& palette);
+    /// "Illuminance" and below it "lx".
+    static QString light_title(LightQuantity quantity);
     [[nodiscard]] QSizeF size() const { return size_; } ///< logical pixels
     void paint(QPainter& painter, const QPointF& top_left) const;
     [[nodiscard]] QImage image(double pixel_ratio) const;
@@ -33,6 +39,7 @@ private:
     std::vector<double> values_;
     QStringList texts_;
     QString title_;
+    std::vector<float> bars_;
     QSizeF size_;
     double line_ = 0; ///< height of a line of text
 };

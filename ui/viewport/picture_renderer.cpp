@@ -24,7 +24,7 @@ bool PictureRenderer::initialize(Gl& gl) {
     outline_ = load_program("outline.vert", "outline.frag");
     overlay_ = load_program("overlay.vert", "overlay.frag");
     plate_ = load_program("plate.vert", "plate.frag");
-    if (!gpu_.initialize(gl) || !outline_ || !overlay_ || !plate_) {
+    if (!gpu_.initialize(gl) || !figures_.initialize(gl) || !outline_ || !overlay_ || !plate_) {
         return false;
     }
     gl.glGenVertexArrays(1, &empty_array_);
@@ -49,6 +49,7 @@ void PictureRenderer::release() {
         return;
     }
     gpu_.release();
+    figures_.release();
     picture_.release(*gl_);
     resolved_.release(*gl_);
     mask_.release(*gl_);
@@ -143,6 +144,7 @@ void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, i
         gpu_.draw_edges(in.view, from);
     }
     gpu_.draw_landings(in.view, from, in.landings, in.selected, float(in.pixel_ratio));
+    figures_.draw(in.view, from, in.figures, vec2(in.width, in.height), float(in.pixel_ratio));
     if (samples > 0) {
         resolved_.resize(gl, in.width, in.height, 0, GL_RGBA8, false);
         gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.framebuffer());

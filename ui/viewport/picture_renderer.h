@@ -3,6 +3,7 @@
 
 #include "ui/viewport/gpu_scene.h"
 #include "ui/viewport/overlay_batch.h"
+#include "ui/viewport/scene_figures.h"
 
 #include <QImage>
 
@@ -33,6 +34,7 @@ struct FrameInput {
     bool texel_grid = false;    ///< and the texels of those of the selected nodes
     std::shared_ptr<const std::vector<SurfaceLandings>>
         landings;                          ///< of which those of the selected nodes are drawn; or null
+    std::span<const ShownFigures> figures; ///< in the scene
     std::optional<FalseColor> false_color; ///< amounts of light instead of the picture
     std::span<const Plate> plates;         ///< over everything else, in this order
     bool refine = false;                   ///< smooth edges where the interactive picture goes without
@@ -84,6 +86,7 @@ private:
     static constexpr unsigned kProbeFaces = 6;
     Gl* gl_ = nullptr;
     GpuScene gpu_;
+    SceneFigures figures_;
     GlTarget picture_;
     GlTarget resolved_;
     GlTarget mask_;

@@ -7,6 +7,7 @@
 #include "ui/document/engine_link.h"
 #include "ui/document/library.h"
 #include "ui/tools/snapping.h"
+#include "ui/viewport/light_inspector.h"
 #include "ui/viewport/light_meter.h"
 #include "ui/viewport/light_views.h"
 
@@ -51,6 +52,12 @@ public:
     /// Amounts of light on this scale, with its legend, instead of the picture; none for the picture.
     void set_false_color(const std::optional<FalseColor>& scale);
     [[nodiscard]] const std::optional<FalseColor>& false_color() const;
+    /// Overlays by which the light is inspected. What they need of solutions is asked for by whoever turns them on
+    /// (EngineLink::keep_insides).
+    void set_inspection(const InspectionChoice& choice);
+    [[nodiscard]] const LightInspector& inspector() const;
+    /// Draws the links of the element under a point of the view, logical pixels, as a click does; false where there is none.
+    bool inspect_element(const QPointF& point);
     /// What the measuring tool left behind, with readings of the light that is shown. They last as long as the document.
     [[nodiscard]] const MeasuringPoints& measuring_points() const;
     void clear_measuring_points();

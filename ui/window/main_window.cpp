@@ -17,6 +17,7 @@
 #include "ui/window/file_controller.h"
 #include "ui/window/help_dialogs.h"
 #include "ui/window/import_bar.h"
+#include "ui/window/overlay_controller.h"
 #include "ui/window/photometry_controller.h"
 #include "ui/window/settings.h"
 #include "ui/window/start_page.h"
@@ -119,6 +120,7 @@ MainWindow::MainWindow(const QString& recovery_directory, QWidget* parent) : QMa
     layout->addWidget(false_color_bar_);
     setCentralWidget(centre);
 
+    overlays_ = new OverlayController(*actions_, *engine_, *viewport_, this);
     make_docks();
     make_menus();
     make_tool_bar();
@@ -322,6 +324,7 @@ void MainWindow::make_menus() {
                                     ActionId::CausticBoxes,
                                     ActionId::TexelGrid,
                                     ActionId::ParticleLandings});
+    overlays_->fill(view->addMenu(tr("O&verlays")));
     auto* ways = view->addMenu(tr("Ca&ustics Shown As"));
     for (const auto& [id, way] : kWays) {
         ways->addAction(a[id]);

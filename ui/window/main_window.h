@@ -23,6 +23,7 @@ class CausticPanel;
 class ConvergencePanel;
 class EditController;
 class FalseColorBar;
+class OverlayController;
 class FileController;
 class ImportBar;
 class LibraryPanel;
@@ -102,6 +103,7 @@ private:
     StartPage* start_ = nullptr;
     ImportBar* import_bar_ = nullptr;
     FalseColorBar* false_color_bar_ = nullptr;
+    OverlayController* overlays_ = nullptr;
     QStackedWidget* pages_ = nullptr;
     SceneTreePanel* tree_ = nullptr;
     PropertiesPanel* properties_ = nullptr;
