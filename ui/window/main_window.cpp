@@ -11,6 +11,7 @@
 #include "ui/window/false_color_bar.h"
 #include "ui/window/file_controller.h"
 #include "ui/window/import_bar.h"
+#include "ui/window/notice_bar.h"
 #include "ui/window/photometry_controller.h"
 #include "ui/window/settings.h"
 #include "ui/window/start_page.h"
@@ -54,6 +55,10 @@ MainWindow::MainWindow(const QString& recovery_directory, QWidget* parent) : QMa
     pages_->addWidget(viewport_);
     auto* daylight_bar = new DaylightBar(document_);
     connect(daylight_bar, &DaylightBar::accepted, this, [this] { edit_->add_daylight(); });
+    autosave_notice_ = new NoticeBar("autosave_notice");
+    images_notice_ = new NoticeBar("images_notice");
+    layout->addWidget(autosave_notice_);
+    layout->addWidget(images_notice_);
     layout->addWidget(import_bar_);
     layout->addWidget(daylight_bar);
     layout->addWidget(pages_, 1);
@@ -109,6 +114,8 @@ void MainWindow::say(const QString& text) { statusBar()->showMessage(text, kMess
 
 void MainWindow::connect_documents() {
     connect(&document_, &Document::path_changed, this, &MainWindow::update_title);
+    connect(&document_, &Document::path_changed, this, &MainWindow::update_actions);
+    connect(files_, &FileController::read_only_changed, this, &MainWindow::update_title);
     connect(document_.undo_stack(), &QUndoStack::cleanChanged, this, &MainWindow::update_title);
     connect(document_.undo_stack(), &QUndoStack::indexChanged, this, &MainWindow::update_actions);
     connect(document_.undo_stack(), &QUndoStack::cleanChanged, this, &MainWindow::update_actions);
@@ -119,7 +126,7 @@ void MainWindow::connect_documents() {
 
 void MainWindow::update_title() {
     const QString name = document_.path().isEmpty() ? tr("Untitled") : QFileInfo(document_.path()).fileName();
-    setWindowTitle(tr("%1[*] - Atrium").arg(name));
+    setWindowTitle(files_->read_only() ? tr("%1[*] (read-only) - Atrium").arg(name) : tr("%1[*] - Atrium").arg(name));
     setWindowFilePath(document_.path());
     setWindowModified(!document_.undo_stack()->isClean());
 }
@@ -145,6 +152,7 @@ void MainWindow::update_actions() {
     const bool solving = engine_->status().state == SessionStatus::State::Solving;
     (*actions_)[ActionId::StopLight]->setEnabled(solving);
     (*actions_)[ActionId::ResumeLight]->setEnabled(!solving && engine_->stale());
+    (*actions_)[ActionId::Revert]->setEnabled(!document_.path().isEmpty());
     (*actions_)[ActionId::ExportPicture]->setEnabled(bool(engine_->solution()));
 }
 

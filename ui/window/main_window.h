@@ -26,6 +26,7 @@ class FalseColorBar;
 class FileController;
 class ImportBar;
 class LibraryPanel;
+class NoticeBar;
 class PhotometryController;
 class PropertiesPanel;
 class SceneTreePanel;
@@ -70,6 +71,7 @@ private:
     void make_tool_bar();
     void make_status_bar();
     void connect_files();
+    void connect_notices();
     void connect_edit();
     void connect_view();
     void make_library();
@@ -101,6 +103,8 @@ private:
     ViewportWidget* viewport_ = nullptr;
     StartPage* start_ = nullptr;
     ImportBar* import_bar_ = nullptr;
+    NoticeBar* autosave_notice_ = nullptr;
+    NoticeBar* images_notice_ = nullptr;
     FalseColorBar* false_color_bar_ = nullptr;
     QStackedWidget* pages_ = nullptr;
     SceneTreePanel* tree_ = nullptr;

@@ -6,7 +6,9 @@
 #include "ui/window/file_controller.h"
 #include "ui/window/import_bar.h"
 #include "ui/window/main_window.h"
+#include "ui/window/notice_bar.h"
 #include "ui/window/photometry_controller.h"
+#include "ui/window/preferences_dialog.h"
 #include "ui/window/settings.h"
 #include "ui/window/start_page.h"
 
@@ -17,10 +19,13 @@
 #include <QMenu>
 #include <QMimeData>
 #include <QProgressBar>
+#include <QPushButton>
 #include <QToolButton>
 
 namespace atrium::ui {
 namespace {
+
+constexpr int kAutosaveEdits = 20; // undo entries, whatever the time
 
 QString dropped_file(const QMimeData* data, std::initializer_list<const char*> suffixes) {
     for (const QUrl& url : data->urls()) {
@@ -45,6 +50,17 @@ void MainWindow::connect_files() {
     on(ActionId::Import, [this] { files_->ask_and_import(); });
     on(ActionId::Save, [this] { files_->save(); });
     on(ActionId::SaveAs, [this] { files_->save_as(); });
+    on(ActionId::Revert, [this] { files_->revert(); });
+    on(ActionId::RecoveredWork, [this] { files_->show_recovered(); });
+    on(ActionId::FindImages, [this] { files_->ask_and_find_textures(); });
+    recovery_->set_limits(1000 * Settings().autosave_seconds(), kAutosaveEdits);
+    on(ActionId::Preferences, [this] {
+        auto* dialog = new PreferencesDialog(this);
+        dialog->setAttribute(Qt::WA_DeleteOnClose);
+        connect(dialog, &PreferencesDialog::stored, this,
+                [this] { recovery_->set_limits(1000 * Settings().autosave_seconds(), kAutosaveEdits); });
+        dialog->open();
+    });
     on(ActionId::ExportGltf, [this] { files_->ask_and_export_gltf(); });
     on(ActionId::ExportPicture, [this] { export_picture(); });
     on(ActionId::Quit, [this] { close(); });
@@ -72,8 +88,34 @@ void MainWindow::connect_files() {
             close(); // asked for while a file was being written
         }
     });
-    connect(recovery_.get(), &Recovery::failed, this,
-            [this](const QString& why) { say(tr("Autosave failed: %1").arg(why)); });
+    recovery_->set_view([this] { return viewport_->camera(); });
+    connect_notices();
+}
+
+void MainWindow::connect_notices() {
+    connect(autosave_notice_->add_button(tr("Save &As...")), &QPushButton::clicked, this, [this] { files_->save_as(); });
+    connect(autosave_notice_->add_button(tr("Try A&gain")), &QPushButton::clicked, this, [this] {
+        autosave_notice_->hide();
+        recovery_->write();
+    });
+    connect(recovery_.get(), &Recovery::failed, this, [this](const QString& why) {
+        autosave_notice_->show_text(tr("Autosave failed; what is unsaved is in this window only. %1").arg(why));
+    });
+    connect(recovery_.get(), &Recovery::written, autosave_notice_, &QWidget::hide);
+    connect(files_, &FileController::saved, autosave_notice_, &QWidget::hide);
+    connect(&document_, &Document::reset_done, autosave_notice_, &QWidget::hide);
+
+    connect(images_notice_->add_button(tr("&Find...")), &QPushButton::clicked, files_,
+            &FileController::ask_and_find_textures);
+    connect(&document_, &Document::reset_done, images_notice_, &QWidget::hide);
+    connect(files_, &FileController::textures_missing, this, [this](int count) {
+        images_notice_->setVisible(count > 0);
+        if (count > 0) {
+            images_notice_->show_text(
+                tr("%n image(s) of this scene were not found; surfaces that use them show their plain colour.", nullptr,
+                   count));
+        }
+    });
 }
 
 void MainWindow::update_recent() {
@@ -120,7 +162,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
         return;
     }
     Settings().set_window(saveGeometry(), saveState());
-    recovery_->clear();
+    recovery_->clear(); // nothing is unsaved
     event->accept();
 }
 

@@ -27,6 +27,9 @@ void MainWindow::make_menus() {
     file->addSeparator();
     file->addAction(a[ActionId::Save]);
     file->addAction(a[ActionId::SaveAs]);
+    file->addAction(a[ActionId::Revert]);
+    file->addAction(a[ActionId::RecoveredWork]);
+    file->addAction(a[ActionId::FindImages]);
     file->addSeparator();
     file->addAction(a[ActionId::ExportGltf]);
     file->addAction(a[ActionId::ExportPicture]);
@@ -78,7 +81,9 @@ void MainWindow::make_menus() {
                                     ActionId::CopyPoints,
                                     ActionId::RemovePoints,
                                     gap,
-                                    ActionId::Commands});
+                                    ActionId::Commands,
+                                    gap,
+                                    ActionId::Preferences});
     fill_snapping_menu(edit->addMenu(tr("Sna&pping")));
     fill(tr("&Add"),
          {ActionId::Library, gap, ActionId::AddPolygon, ActionId::AddBox, ActionId::AddSphere, ActionId::AddCylinder,
