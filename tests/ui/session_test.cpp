@@ -297,6 +297,7 @@ TEST_F(Session, SurvivesAKill) {
     (void)named("Glass vase 2");
     EXPECT_EQ(window->document().path(), file("room.atrium"));
     QSignalSpy done(&window->files(), &FileController::saved);
+    QApplication::setActiveWindow(window.get()); // the offer had the focus
     QTest::keyClick(&window->viewport(), Qt::Key_S, Qt::ControlModifier);
     ASSERT_TRUE(done.count() > 0 || done.wait(60000));
     EXPECT_TRUE(window->recovery().orphans().empty());
