@@ -5,6 +5,8 @@
 #include "ui/window/false_color_bar.h"
 #include "ui/window/file_controller.h"
 #include "ui/window/main_window.h"
+#include "ui/window/settings.h"
+#include "ui/window/translation.h"
 
 #include <QAction>
 #include <QApplication>
@@ -17,6 +19,7 @@
 #include <QTimer>
 
 #include <clocale>
+#include <csignal>
 #include <cstdio>
 #include <string_view>
 
@@ -123,6 +126,7 @@ int main(int argc, char** argv) {
         qputenv("QT_QPA_PLATFORM", "offscreen");
         qputenv("QT_LOGGING_RULES", "qt.*=false"); // nothing but that text: not what an absent desktop lacks
     }
+    std::signal(SIGXFSZ, SIG_IGN); // a file that grows beyond what is allowed is an error to be told, not the end
     QSurfaceFormat format;
     format.setVersion(3, 3);
     format.setProfile(QSurfaceFormat::CoreProfile);
@@ -137,6 +141,11 @@ int main(int argc, char** argv) {
     QGuiApplication::setDesktopFileName(QStringLiteral("atrium"));
 
     QGuiApplication::setWindowIcon(QIcon(QStringLiteral(":/atrium.svg")));
+
+    if (argc < 2 ||
+        std::string_view(argv[1]).substr(0, 8) != "--write-") { // manual pages are the same wherever they are built
+        atrium::ui::install_language(atrium::ui::chosen_language(atrium::ui::Settings().language()));
+    }
 
     QCommandLineParser parser;
     parser.setApplicationDescription(QObject::tr("Edit interiors with live global illumination."));

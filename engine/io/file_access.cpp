@@ -3,6 +3,9 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <csignal>
 #include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -52,6 +55,34 @@ int hex_digit(char c) {
     return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
+/// Takes away what a killed process left half written beside `target`: its name tells the process. Only what is older than
+/// an hour, since on a shared folder the process may live on another machine.
+void remove_stale_temporaries(const fs::path& target) {
+    constexpr auto kOld = std::chrono::hours(1);
+    const std::string prefix = "." + target.filename().string() + ".";
+    std::error_code error;
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    std::vector<fs::path> stale;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+        const std::string name = it->path().filename().string();
+        if (!name.starts_with(prefix) || !name.ends_with(".tmp")) {
+            continue;
+        }
+        int process = 0;
+        const char* first = name.data() + prefix.size();
+        const auto parsed = std::from_chars(first, name.data() + name.size(), process);
+        std::error_code ignored;
+        const auto written = fs::last_write_time(it->path(), ignored);
+        if (parsed.ec == std::errc{} && *parsed.ptr == '-' && process > 0 && ::kill(process, 0) != 0 && errno == ESRCH &&
+            !ignored && fs::file_time_type::clock::now() - written > kOld) {
+            stale.push_back(it->path());
+        }
+    }
+    for (const fs::path& path : stale) {
+        fs::remove(path, error);
+    }
+}
+
 bool has_scheme(const std::string& uri) {
     const std::size_t colon = uri.find(':');
     return colon != std::string::npos && uri.find_first_of("/?#") > colon;
@@ -95,6 +126,7 @@ Result<PendingFile> PendingFile::prepare(const fs::path& path, std::span<const s
             target = std::move(real);
         }
     }
+    remove_stale_temporaries(target);
     static std::atomic<unsigned> counter{0};
     const fs::path temporary = target.parent_path() / ("." + target.filename().string() + "." + std::to_string(::getpid()) +
                                                        "-" + std::to_string(counter++) + ".tmp");
@@ -110,8 +142,10 @@ Result<PendingFile> PendingFile::prepare(const fs::path& path, std::span<const s
         [[maybe_unused]] const int unused = ::fchmod(file.fd, old.st_mode & 07777);
     }
     if (!write_all(file.fd, bytes) || ::fsync(file.fd) != 0) {
+        const bool full = errno == ENOSPC || errno == EDQUOT || errno == EFBIG;
         return fail(path.string(), "", "cannot be written: " + system_reason(),
-                    "The file that was there before is unchanged.");
+                    full ? "The file that was there before is unchanged. Free some space, or save into another folder."
+                         : "The file that was there before is unchanged.");
     }
     return pending;
 }

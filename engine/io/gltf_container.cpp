@@ -22,30 +22,6 @@ void append(std::vector<std::uint8_t>& out, std::uint32_t value) {
     }
 }
 
-/// Printing JSON and tinygltf's own conversion recurse: deep nesting would overflow the stack.
-void check_depth(std::string_view json) {
-    int depth = 0;
-    bool in_text = false;
-    for (std::size_t i = 0; i < json.size(); ++i) {
-        const char c = json[i];
-        if (in_text) {
-            if (c == '\\') {
-                ++i;
-            } else if (c == '"') {
-                in_text = false;
-            }
-        } else if (c == '"') {
-            in_text = true;
-        } else if (c == '{' || c == '[') {
-            if (++depth > kMaxDepth) {
-                refuse("JSON", "is nested more than " + std::to_string(kMaxDepth) + " levels deep");
-            }
-        } else if (c == '}' || c == ']') {
-            --depth;
-        }
-    }
-}
-
 Json parse(std::string_view json, Container& container) {
     if (json.starts_with("\xEF\xBB\xBF")) {
         json.remove_prefix(3);
@@ -70,6 +46,30 @@ Json parse(std::string_view json, Container& container) {
 }
 
 } // namespace
+
+/// Printing JSON and tinygltf's own conversion recurse: deep nesting would overflow the stack.
+void check_depth(std::string_view json) {
+    int depth = 0;
+    bool in_text = false;
+    for (std::size_t i = 0; i < json.size(); ++i) {
+        const char c = json[i];
+        if (in_text) {
+            if (c == '\\') {
+                ++i;
+            } else if (c == '"') {
+                in_text = false;
+            }
+        } else if (c == '"') {
+            in_text = true;
+        } else if (c == '{' || c == '[') {
+            if (++depth > kMaxDepth) {
+                refuse("JSON", "is nested more than " + std::to_string(kMaxDepth) + " levels deep");
+            }
+        } else if (c == '}' || c == ']') {
+            --depth;
+        }
+    }
+}
 
 Container open_container(std::vector<std::uint8_t> bytes) {
     Container out;

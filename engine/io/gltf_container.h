@@ -20,6 +20,9 @@ struct Container {
 /// Splits and parses; refuses wrong headers, truncated chunks, syntax errors and JSON nested deeper than 200 levels.
 Container open_container(std::vector<std::uint8_t> bytes);
 
+/// Refuses JSON text nested deeper than 200 levels.
+void check_depth(std::string_view json);
+
 /// A GLB of this JSON and binary chunk (which may be empty); both padded to 4 bytes.
 std::vector<std::uint8_t> make_glb(const std::string& json, std::span<const std::uint8_t> binary);
 

@@ -8,6 +8,7 @@
 #include "engine/io/gltf_check.h"
 #include "engine/io/gltf_extensions.h"
 #include "engine/io/gltf_resources.h"
+#include "engine/io/gltf_salvage.h"
 #include "engine/io/project_file.h"
 
 #include <fmt/format.h>
@@ -100,9 +101,9 @@ void report(ReadContext& context) {
     }
 }
 
-LoadedScene read(const std::filesystem::path& path, std::vector<std::uint8_t> bytes) {
+LoadedScene read(const std::filesystem::path& path, std::vector<std::uint8_t> bytes, bool salvage) {
     const std::uint64_t size = bytes.size();
-    Container container = open_container(std::move(bytes));
+    Container container = salvage ? salvage_container(std::move(bytes)) : open_container(std::move(bytes));
     check_document(container.root, container.has_binary);
 
     LoadedScene out;
@@ -130,13 +131,13 @@ LoadedScene read(const std::filesystem::path& path, std::vector<std::uint8_t> by
 
 } // namespace
 
-Result<LoadedScene> read_scene(const std::filesystem::path& path) {
+Result<LoadedScene> read_scene(const std::filesystem::path& path, const ReadOptions& options) {
     auto bytes = read_file(path, kMaxSceneFile);
     if (!bytes) {
         return tl::unexpected(bytes.error());
     }
     try {
-        return read(path, std::move(*bytes));
+        return read(path, std::move(*bytes), options.salvage);
     } catch (Refusal& refusal) {
         refusal.error.file = path.string();
         return tl::unexpected(std::move(refusal.error));

@@ -20,7 +20,12 @@ struct LoadedScene {
 
 /// Reads a .gltf, .glb or .atrium file. No path outside the file's folder is opened. Memory is capped at the larger of
 /// 20 x the file's size and 1 GiB. Malformed files are refused with file, place and reason, or repaired with a problem.
-Result<LoadedScene> read_scene(const std::filesystem::path& path);
+struct ReadOptions {
+    /// Takes what a damaged file still holds: text that breaks off, missing binary parts, references to what is lost. Every
+    /// loss is a problem. For files that read_scene() refuses otherwise; a sound file reads the same but for its animations.
+    bool salvage = false;
+};
+Result<LoadedScene> read_scene(const std::filesystem::path& path, const ReadOptions& options = {});
 
 struct WriteOptions {
     std::vector<std::byte> solution; ///< stored in .atrium files only

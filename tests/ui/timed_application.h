@@ -10,6 +10,7 @@
 #include <ctime>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace atrium::ui {
 
@@ -37,11 +38,26 @@ public:
             auto& worst =
                 worst_[(painting ? "painting " : "") + name + " " + QMetaEnum::fromType<QEvent::Type>().valueToKey(type)];
             worst = std::max(worst, ms);
+            if (ms > kStallMs) {
+                stalls_.push_back({activity_, name, QMetaEnum::fromType<QEvent::Type>().valueToKey(type), ms, painting});
+            }
         }
         return done;
     }
+    /// One event that held the thread for longer than a frame.
+    struct Stall {
+        std::string activity; ///< what the test was doing
+        std::string receiver;
+        std::string event;
+        double ms = 0; ///< of this thread's processor
+        bool painting = false;
+    };
+    static constexpr double kStallMs = 16.0;
+    void set_activity(std::string what) { activity_ = std::move(what); }
+    [[nodiscard]] const std::vector<Stall>& stalls() const { return stalls_; } ///< since start()
     void start() {
         worst_.clear();
+        stalls_.clear();
         paints_on_news_ = 0;
         on_ = true;
     }
@@ -68,6 +84,8 @@ private:
     bool top_is_news_ = false;
     int paints_on_news_ = 0;
     std::map<std::string, double> worst_;
+    std::vector<Stall> stalls_;
+    std::string activity_;
 };
 
 } // namespace atrium::ui

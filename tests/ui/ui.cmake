@@ -10,11 +10,14 @@ if(TARGET atrium_ui)
   target_precompile_headers(ui_tests REUSE_FROM atrium_ui)
   find_program(XVFB_RUN xvfb-run)
   if(XVFB_RUN)
-    add_test(NAME ui COMMAND ${XVFB_RUN} -a -s "-screen 0 1400x900x24" $<TARGET_FILE:ui_tests> --gtest_filter=-*Interiors*)
+    add_test(NAME ui COMMAND ${XVFB_RUN} -a -s "-screen 0 1400x900x24" $<TARGET_FILE:ui_tests> --gtest_filter=-*Interiors*:*Session*)
     set_tests_properties(ui PROPERTIES TIMEOUT 300 ENVIRONMENT "QT_QPA_PLATFORM=xcb;LC_ALL=C.UTF-8")
     # Real interiors take their time: an entry of their own.
     add_test(NAME ui_interiors COMMAND ${XVFB_RUN} -a -s "-screen 0 1400x900x24" $<TARGET_FILE:ui_tests> --gtest_filter=*Interiors*)
     set_tests_properties(ui_interiors PROPERTIES TIMEOUT 600 ENVIRONMENT "QT_QPA_PLATFORM=xcb;LC_ALL=C.UTF-8")
+    # An architect's quarter of an hour, by mouse and keys, with a kill at its end.
+    add_test(NAME ui_session COMMAND ${XVFB_RUN} -a -s "-screen 0 1400x900x24" $<TARGET_FILE:ui_tests> --gtest_filter=*Session*)
+    set_tests_properties(ui_session PROPERTIES TIMEOUT 600 ENVIRONMENT "QT_QPA_PLATFORM=xcb;LC_ALL=C.UTF-8")
     # A file that is not there: a message and an exit status, not a picture of a message box.
     add_test(NAME screenshot_of_nothing COMMAND ${XVFB_RUN} -a $<TARGET_FILE:atrium> no/such/room.glb --screenshot nothing.png)
     set_tests_properties(screenshot_of_nothing PROPERTIES TIMEOUT 60 WILL_FAIL TRUE

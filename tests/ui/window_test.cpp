@@ -407,10 +407,10 @@ TEST_F(WindowTest, RecoversAfterAKill) {
     window = std::make_unique<MainWindow>(folder.filePath(QStringLiteral("recovery")));
     window->show();
     window->files().offer_recovery();
-    auto* box = dialog<QMessageBox>("recovery");
+    auto* box = dialog<QDialog>("recovery");
     ASSERT_NE(box, nullptr);
     QSignalSpy opened(&window->files(), &FileController::opened);
-    box->defaultButton()->click();
+    QTest::mouseClick(box->findChild<QPushButton*>(QStringLiteral("recover")), Qt::LeftButton);
     ASSERT_TRUE(opened.wait(10000));
     EXPECT_DOUBLE_EQ(node(named("Shelf")).transform.translation.x, 1.75);
     EXPECT_TRUE(window->isWindowModified()) << "recovered work is not saved yet";

@@ -33,16 +33,16 @@ QString percent_text(double share) {
 
 QString phase_text(const std::string& phase) {
     static const std::pair<const char*, const char*> kNames[] = {
-        {"ray_scene", QT_TRANSLATE_NOOP("JobsPanel", "Preparing rays")},
-        {"charts", QT_TRANSLATE_NOOP("JobsPanel", "Unrolling surfaces")},
-        {"direct", QT_TRANSLATE_NOOP("JobsPanel", "Finding shadows")},
-        {"leaf_gather", QT_TRANSLATE_NOOP("JobsPanel", "Looking closer")},
-        {"hierarchy", QT_TRANSLATE_NOOP("JobsPanel", "Dividing surfaces")},
-        {"links", QT_TRANSLATE_NOOP("JobsPanel", "Finding what sees what")},
-        {"visibility", QT_TRANSLATE_NOOP("JobsPanel", "Tracing visibility")},
-        {"gather", QT_TRANSLATE_NOOP("JobsPanel", "Gathering light")},
-        {"layers", QT_TRANSLATE_NOOP("JobsPanel", "Painting light onto surfaces")},
-        {"audit", QT_TRANSLATE_NOOP("JobsPanel", "Measuring the error")},
+        {"ray_scene", QT_TRANSLATE_NOOP("atrium::ui::JobsPanel", "Preparing rays")},
+        {"charts", QT_TRANSLATE_NOOP("atrium::ui::JobsPanel", "Unrolling surfaces")},
+        {"direct", QT_TRANSLATE_NOOP("atrium::ui::JobsPanel", "Finding shadows")},
+        {"leaf_gather", QT_TRANSLATE_NOOP("atrium::ui::JobsPanel", "Looking closer")},
+        {"hierarchy", QT_TRANSLATE_NOOP("atrium::ui::JobsPanel", "Dividing surfaces")},
+        {"links", QT_TRANSLATE_NOOP("atrium::ui::JobsPanel", "Finding what sees what")},
+        {"visibility", QT_TRANSLATE_NOOP("atrium::ui::JobsPanel", "Tracing visibility")},
+        {"gather", QT_TRANSLATE_NOOP("atrium::ui::JobsPanel", "Gathering light")},
+        {"layers", QT_TRANSLATE_NOOP("atrium::ui::JobsPanel", "Painting light onto surfaces")},
+        {"audit", QT_TRANSLATE_NOOP("atrium::ui::JobsPanel", "Measuring the error")},
     };
     for (const auto& [name, text] : kNames) {
         if (phase == name) {

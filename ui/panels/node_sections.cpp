@@ -282,11 +282,11 @@ bool ShapeSection::has_target() const { return !targets().empty(); }
 void ShapeSection::refresh_more() {
     const std::vector<ShapeId> shapes = targets();
     const Shape& first = *scene().shapes.find(shapes.front());
-    const QString kind = QString::fromLatin1(shape_kind(first));
+    const QString kind = QCoreApplication::translate("Shapes", shape_kind(first));
     const bool one_kind = std::all_of(shapes.begin(), shapes.end(), [&](ShapeId id) {
         return scene().shapes.find(id)->geometry.index() == first.geometry.index();
     });
-    QString text = one_kind ? tr(kind.toLatin1().constData()) : tr("Shapes of several kinds");
+    QString text = one_kind ? kind : tr("Shapes of several kinds");
     const QLocale locale;
     if (const auto* mesh = std::get_if<Mesh>(&first.geometry); mesh != nullptr && shapes.size() == 1) {
         text = tr("Mesh: %1 triangles, %2 part(s)")

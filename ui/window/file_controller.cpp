@@ -1,18 +1,17 @@
 #include "ui/window/file_controller.h"
 
+#include "engine/io/relink.h"
 #include "engine/io/scene_file.h"
 #include "ui/document/background.h"
 #include "ui/document/insert_commands.h"
 #include "ui/document/sample_room.h"
+#include "ui/window/file_names.h"
 #include "ui/window/settings.h"
 
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QLocale>
 #include <QMessageBox>
 #include <QPushButton>
-
-#include <filesystem>
 
 namespace atrium::ui {
 
@@ -23,19 +22,25 @@ struct Opened {
     std::vector<Problem> problems;
     std::shared_ptr<const Solution> solution;
     ImportSuggestion suggestion;
+    FileStamp stamp;      ///< of the file, taken before it was read
+    Error damage;         ///< why it could not be read as it is
+    bool rescued = false; ///< what the damaged file still held
 };
 
-std::filesystem::path to_path(const QString& path) { return std::filesystem::path(path.toStdU16String()); }
-
-bool is_project(const QString& path) { return path.endsWith(QLatin1StringView(".atrium"), Qt::CaseInsensitive); }
-
-/// Any thread.
+/// Any thread. A damaged file gives what it still holds, if that is anything.
 Result<Opened> read_file(const QString& path) {
+    Opened out;
+    out.stamp = FileStamp::of(path);
     auto loaded = read_scene(to_path(path));
     if (!loaded) {
-        return tl::unexpected<Error>(loaded.error());
+        auto rescued = read_scene(to_path(path), {.salvage = true});
+        if (!rescued || rescued->scene.nodes.empty()) {
+            return tl::unexpected<Error>(loaded.error());
+        }
+        out.damage = loaded.error();
+        out.rescued = true;
+        loaded = std::move(rescued);
     }
-    Opened out;
     if (!loaded->solution.empty()) {
         auto solution = decode_solution(loaded->solution, loaded->scene);
         if (solution) {
@@ -69,14 +74,11 @@ FileController::FileController(Document& document, EngineLink& engine, Recovery&
 
 void FileController::report_busy() { Q_EMIT busy_changed(busy() ? busy_text_ : QString(), loading_); }
 
-void FileController::show_error(const QString& title, const Error& error) {
-    auto* box = new QMessageBox(QMessageBox::Warning, title, QString(), QMessageBox::Ok, window_);
-    box->setAttribute(Qt::WA_DeleteOnClose);
+QString FileController::error_text(const Error& error) {
     QString text = QString::fromStdString(error.what);
     if (!text.isEmpty()) {
         text[0] = text[0].toUpper();
     }
-    box->setText(title);
     QStringList lines;
     if (!error.file.empty()) {
         lines += tr("File: %1").arg(QString::fromStdString(error.file));
@@ -88,15 +90,39 @@ void FileController::show_error(const QString& title, const Error& error) {
     if (!error.hint.empty()) {
         lines += QString::fromStdString(error.hint);
     }
-    box->setInformativeText(lines.join(QLatin1Char('\n')));
+    return lines.join(QLatin1Char('\n'));
+}
+
+QMessageBox* FileController::make_box(QMessageBox::Icon icon, const char* name, const QString& title, const QString& text,
+                                      const QString& more) {
+    auto* box = new QMessageBox(icon, title, text, QMessageBox::NoButton, window_);
+    box->setObjectName(QLatin1StringView(name));
+    box->setAttribute(Qt::WA_DeleteOnClose);
     box->setTextFormat(Qt::PlainText);
+    box->setInformativeText(more);
+    return box;
+}
+
+void FileController::show_error(const QString& title, const Error& error) {
+    auto* box = make_box(QMessageBox::Warning, "error", title, title, error_text(error));
+    box->addButton(QMessageBox::Ok);
     box->open();
+}
+
+QString FileController::document_name() const {
+    return document_.path().isEmpty() ? tr("Untitled") : QFileInfo(document_.path()).fileName();
+}
+
+void FileController::replace(Scene scene, const QString& path, std::vector<Problem> problems, const FileHold& hold) {
+    recovered_.reset(); // what was not saved of it is offered again
+    hold_ = hold;
+    document_.reset(std::move(scene), path, std::move(problems));
+    Q_EMIT read_only_changed();
 }
 
 void FileController::new_scene() {
     when_saved([this] {
-        Scene empty;
-        document_.reset(std::move(empty), {}, {});
+        replace({}, {}, {}, {});
         engine_.load(nullptr);
         Q_EMIT opened();
     });
@@ -104,7 +130,7 @@ void FileController::new_scene() {
 
 void FileController::open_sample() {
     when_saved([this] {
-        document_.reset(sample_room(), {}, {});
+        replace(sample_room(), {}, {}, {});
         engine_.load(nullptr);
         Q_EMIT opened();
     });
@@ -115,50 +141,115 @@ void FileController::ask_and_open() {
         auto* dialog = new QFileDialog(window_, tr("Open"), Settings().last_folder(), open_filter());
         dialog->setAttribute(Qt::WA_DeleteOnClose);
         dialog->setFileMode(QFileDialog::ExistingFile);
-        connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& path) { start_open(path, {}); });
+        connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& path) { start_open({path}); });
         dialog->open();
     });
 }
 
 void FileController::open(const QString& path) {
-    when_saved([this, path] { start_open(path, {}); });
+    when_saved([this, path] { start_open({path}); });
 }
 
-void FileController::start_open(const QString& path, std::function<void()> then) {
+void FileController::ask_about_lock(const OpenRequest& request, const QString& holder) {
+    const QString name = QFileInfo(request.saved_to()).fileName();
+    auto* box = make_box(QMessageBox::Question, "project_locked", tr("Open elsewhere"),
+                         tr("%1 is open in another Atrium.").arg(name),
+                         tr("It is held by %1. If both save, the one that saves last is asked what to do.").arg(holder));
+    auto* look = box->addButton(tr("Open Read-Only"), QMessageBox::AcceptRole);
+    auto* anyway = box->addButton(tr("Open Anyway"), QMessageBox::ActionRole);
+    box->setEscapeButton(box->addButton(QMessageBox::Cancel));
+    box->setDefaultButton(look);
+    connect(box, &QMessageBox::finished, this, [this, box, look, anyway, request] {
+        OpenRequest next = request;
+        next.read_only = box->clickedButton() == look;
+        next.ignore_lock = box->clickedButton() == anyway;
+        if (next.read_only || next.ignore_lock) {
+            start_open(std::move(next));
+        }
+    });
+    box->open();
+}
+
+void FileController::start_open(OpenRequest request) {
+    const QString path = request.path;
+    FileHold hold;
+    hold.read_only = request.read_only;
+    if (is_project(request.saved_to()) && !request.read_only) {
+        const QString project = QFileInfo(request.saved_to()).absoluteFilePath();
+        hold.lock = hold_.lock && hold_.lock->project() == project ? hold_.lock : std::make_shared<ProjectLock>(project);
+        if (hold.lock->taken() && !request.ignore_lock) {
+            ask_about_lock(request, hold.lock->holder());
+            return;
+        }
+    }
     const std::uint64_t token = ++load_token_;
     loading_ = true;
     busy_text_ = tr("Opening %1").arg(QFileInfo(path).fileName());
     report_busy();
     run_in_background(
         this, [path] { return read_file(path); },
-        [this, token, path, then = std::move(then)](Result<Opened> result) {
+        [this, token, hold, request](Result<Opened> result) {
             if (token != load_token_) {
                 return; // cancelled, or something else was opened since
             }
             loading_ = false;
             report_busy();
+            const QString shown = QFileInfo(request.path).fileName();
             if (!result) {
                 Settings settings;
-                if (!QFileInfo::exists(path)) {
-                    settings.remove_recent(path);
+                if (!QFileInfo::exists(request.path)) {
+                    settings.remove_recent(request.path);
                     Q_EMIT recent_changed();
                 }
-                show_error(tr("%1 could not be opened").arg(QFileInfo(path).fileName()), result.error());
+                show_error(tr("%1 could not be opened").arg(shown), result.error());
                 Q_EMIT open_failed(QString::fromStdString(result.error().message()));
                 return;
             }
-            document_.reset(std::move(result->scene), QFileInfo(path).absoluteFilePath(), std::move(result->problems));
-            engine_.load(std::move(result->solution));
-            if (then) {
-                then();
-            } else {
-                Settings().add_recent(path);
-                Q_EMIT recent_changed();
+            const auto opened = std::make_shared<Opened>(std::move(*result));
+            const auto show = [this, opened, held = hold, request] {
+                FileHold now = held;
+                now.stamp = opened->stamp;
+                now.read_only = held.read_only || opened->rescued; // the damaged file may hold more than we could read
+                replace(std::move(opened->scene), QFileInfo(request.path).absoluteFilePath(), std::move(opened->problems),
+                        now);
+                engine_.load(std::move(opened->solution));
+                if (request.then) {
+                    request.then();
+                } else {
+                    Settings().add_recent(request.path);
+                    Q_EMIT recent_changed();
+                }
+                if (opened->rescued) {
+                    document_.undo_stack()->resetClean();
+                }
+                Q_EMIT this->opened();
+                if (opened->suggestion.any()) {
+                    Q_EMIT import_suggested(opened->suggestion);
+                }
+                if (const auto missing = missing_textures(document_.scene()).size(); missing > 0) {
+                    Q_EMIT textures_missing(int(missing));
+                }
+            };
+            if (!opened->rescued) {
+                show();
+                return;
             }
-            Q_EMIT opened();
-            if (result->suggestion.any()) {
-                Q_EMIT import_suggested(result->suggestion);
-            }
+            auto* box = make_box(QMessageBox::Warning, "damaged_file", tr("Damaged file"), tr("%1 is damaged.").arg(shown),
+                                 error_text(opened->damage) + QLatin1Char('\n') +
+                                     tr("%n object(s) can be saved from it. The file itself is left as it is.", nullptr,
+                                        int(opened->scene.nodes.size())));
+            auto* rescue = box->addButton(tr("Open What Is Left"), QMessageBox::AcceptRole);
+            box->setEscapeButton(box->addButton(QMessageBox::Cancel));
+            box->setDefaultButton(rescue);
+            connect(box, &QMessageBox::finished, this,
+                    [this, box, rescue, show, why = QString::fromStdString(opened->damage.message())] {
+                        if (box->clickedButton() == rescue) {
+                            show();
+                        } else {
+                            Q_EMIT open_failed(why);
+                        }
+                    });
+            box->open();
         });
 }
 
@@ -178,6 +269,7 @@ void FileController::ask_and_import() {
 }
 
 void FileController::import(const QString& path) {
+    recovery_.write(); // as it is before
     const std::uint64_t token = ++load_token_;
     loading_ = true;
     busy_text_ = tr("Importing %1").arg(QFileInfo(path).fileName());
@@ -195,6 +287,10 @@ void FileController::import(const QString& path) {
                 show_error(tr("%1 could not be imported").arg(info.fileName()), result.error());
                 return;
             }
+            if (result->rescued) {
+                show_error(tr("%1 could not be imported").arg(info.fileName()), result->damage);
+                return;
+            }
             Settings().set_last_folder(info.absolutePath());
             const Command command = merge_scene(document_.scene(), result->scene, info.completeBaseName().toStdString());
             const auto done = document_.apply(command.edit, tr("Import %1").arg(info.fileName()));
@@ -207,196 +303,55 @@ void FileController::import(const QString& path) {
         });
 }
 
-void FileController::save(std::function<void(bool)> then) {
-    if (is_project(document_.path())) {
-        write(document_.path(), true, std::move(then));
-    } else {
-        save_as(std::move(then));
+void FileController::ask_and_find_textures() {
+    if (missing_textures(document_.scene()).empty()) {
+        Q_EMIT message(tr("No image of this scene is missing."));
+        return;
     }
-}
-
-void FileController::ask_for_path(const QString& title, const QString& suggestion, const QString& filter,
-                                  const QString& suffix, std::function<void(const QString&)> then) {
-    auto* dialog = new QFileDialog(window_, title, suggestion, filter);
+    auto* dialog = new QFileDialog(window_, tr("Folder with the Images"), Settings().last_folder());
+    dialog->setFileMode(QFileDialog::Directory);
+    dialog->setOption(QFileDialog::ShowDirsOnly);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->setFileMode(QFileDialog::AnyFile);
-    dialog->setDefaultSuffix(suffix);
-    dialog->selectFile(QFileInfo(suggestion).fileName());
-    connect(dialog, &QFileDialog::finished, this, [dialog, then = std::move(then)](int result) {
-        then(result == QDialog::Accepted && !dialog->selectedFiles().isEmpty() ? dialog->selectedFiles().constFirst()
-                                                                               : QString());
-    });
+    connect(dialog, &QFileDialog::fileSelected, this, &FileController::find_textures);
     dialog->open();
 }
 
-void FileController::save_as(std::function<void(bool)> then) {
-    const QFileInfo present(document_.path());
-    const QString base = document_.path().isEmpty() ? tr("Untitled") : present.completeBaseName();
-    const QString folder = document_.path().isEmpty() ? Settings().last_folder() : present.absolutePath();
-    ask_for_path(tr("Save Project"), folder + QLatin1Char('/') + base + QStringLiteral(".atrium"),
-                 tr("Atrium projects (*.atrium)"), QStringLiteral("atrium"),
-                 [this, then = std::move(then)](const QString& path) {
-                     if (path.isEmpty()) {
-                         if (then) {
-                             then(false);
-                         }
-                         return;
-                     }
-                     write(is_project(path) ? path : path + QStringLiteral(".atrium"), true, then);
-                 });
-}
-
-void FileController::save_to(const QString& path, std::function<void(bool)> then) { write(path, true, std::move(then)); }
-
-void FileController::ask_and_export_gltf() {
-    const QFileInfo present(document_.path());
-    const QString base = document_.path().isEmpty() ? tr("Untitled") : present.completeBaseName();
-    ask_for_path(tr("Export glTF"), Settings().last_folder() + QLatin1Char('/') + base + QStringLiteral(".glb"),
-                 tr("glTF binary (*.glb);;glTF (*.gltf)"), QStringLiteral("glb"), [this](const QString& path) {
-                     if (!path.isEmpty()) {
-                         write(path, false, {});
-                     }
-                 });
-}
-
-void FileController::write(const QString& path, bool as_document, std::function<void(bool)> then) {
-    if (saving_) {
-        Q_EMIT message(tr("Still saving; try again in a moment."));
-        if (then) {
-            then(false);
-        }
-        return;
-    }
-    saving_ = true;
-    busy_text_ = tr("Saving %1").arg(QFileInfo(path).fileName());
+void FileController::find_textures(const QString& folder) {
+    busy_text_ = tr("Looking for images");
+    searching_ = true;
     report_busy();
-    const std::shared_ptr<const Solution> light =
-        as_document && is_project(path) && !engine_.stale() ? engine_.solution() : nullptr;
+    using Found = std::vector<std::pair<TextureId, Texture>>;
     run_in_background(
         this,
-        [scene = document_.scene(), path, light]() -> Result<bool> {
-            WriteOptions options;
-            if (light) {
-                options.solution = encode_solution(*light, scene);
-            }
-            if (auto done = write_scene(to_path(path), scene, options); !done) {
-                return tl::unexpected<Error>(done.error());
-            }
-            return true;
+        [scene = document_.scene(), folder]() -> Result<Found> {
+            return find_missing_textures(scene, to_path(folder), RunContext{});
         },
-        [this, path, as_document, revision = document_.revision(), then = std::move(then)](const Result<bool>& done) {
-            saving_ = false;
+        [this](const Result<Found>& found) {
+            searching_ = false;
             report_busy();
-            const QString name = QFileInfo(path).fileName();
-            if (!done) {
-                show_error(tr("%1 could not be saved").arg(name), done.error());
-            } else if (as_document) {
-                document_.set_path(QFileInfo(path).absoluteFilePath());
-                if (document_.revision() == revision) {
-                    recovery_.clear();
-                } else {
-                    document_.undo_stack()->resetClean(); // edited while the file was written
+            if (!found) {
+                show_error(tr("The images could not be looked for"), found.error());
+                return;
+            }
+            EditGroup edits;
+            for (const auto& [id, texture] : *found) {
+                if (document_.scene().textures.contains(id)) {
+                    edits.edits.push_back({SetResource<Texture>{id, texture}});
                 }
-                Settings().add_recent(path);
-                Q_EMIT recent_changed();
-                Q_EMIT message(tr("Saved %1.").arg(name));
-            } else {
-                Q_EMIT message(tr("Exported %1.").arg(name));
             }
-            if (then) {
-                then(bool(done) && document_.undo_stack()->isClean());
-            }
-        });
-}
-
-void FileController::when_saved(std::function<void()> proceed) {
-    if (document_.undo_stack()->isClean()) {
-        proceed();
-        return;
-    }
-    auto* box = new QMessageBox(QMessageBox::Warning, tr("Unsaved changes"), QString(),
-                                QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, window_);
-    box->setObjectName(QStringLiteral("save_changes"));
-    box->setAttribute(Qt::WA_DeleteOnClose);
-    const QString name = document_.path().isEmpty() ? tr("Untitled") : QFileInfo(document_.path()).fileName();
-    box->setText(tr("Save the changes to %1?").arg(name));
-    box->setInformativeText(tr("What is not saved is lost."));
-    box->setDefaultButton(QMessageBox::Save);
-    connect(box, &QMessageBox::finished, this, [this, proceed = std::move(proceed)](int button) {
-        if (button == QMessageBox::Discard) {
-            document_.undo_stack()->setClean(); // not asked twice on the way out
-            recovery_.clear();
-            proceed();
-        } else if (button == QMessageBox::Save) {
-            save([proceed](bool saved) {
-                if (saved) {
-                    proceed();
+            const int count = int(edits.edits.size());
+            if (count > 0) {
+                if (const auto done = document_.apply({std::move(edits)}, tr("Find Missing Images")); !done) {
+                    show_error(tr("The images could not be used"), done.error());
+                    return;
                 }
-            });
-        }
-    });
-    box->open();
-}
-
-void FileController::offer_recovery() {
-    const std::vector<RecoveredFile> files = recovery_.orphans();
-    if (files.empty()) {
-        return;
-    }
-    const RecoveredFile file = files.front();
-    auto* box = new QMessageBox(QMessageBox::Question, tr("Recovered work"), QString(), QMessageBox::NoButton, window_);
-    box->setObjectName(QStringLiteral("recovery"));
-    box->setAttribute(Qt::WA_DeleteOnClose);
-    const QLocale locale;
-    const QFileInfo original(file.original);
-    box->setText(tr("Atrium did not end properly. Unsaved work from %1 was kept.")
-                     .arg(locale.toString(file.date, QLocale::ShortFormat)));
-    QStringList lines;
-    lines += file.original.isEmpty() ? tr("It was never saved under a name.") : tr("It belongs to %1.").arg(file.original);
-    if (!file.original.isEmpty() && original.exists()) {
-        lines += tr("That file was last saved on %1 and is not touched.")
-                     .arg(locale.toString(original.lastModified(), QLocale::ShortFormat));
-    }
-    lines += tr("Recovered file: %1").arg(file.path);
-    if (files.size() > 1) {
-        lines += tr("%n older recovered file(s) will be offered next time.", nullptr, int(files.size()) - 1);
-    }
-    box->setInformativeText(lines.join(QLatin1Char('\n')));
-    auto* recover = box->addButton(tr("Open Recovered"), QMessageBox::AcceptRole);
-    QPushButton* saved = nullptr;
-    if (!file.original.isEmpty() && original.exists()) {
-        saved = box->addButton(tr("Open Saved File"), QMessageBox::ActionRole);
-    }
-    auto* discard = box->addButton(tr("Delete Recovered"), QMessageBox::DestructiveRole);
-    auto* later = box->addButton(tr("Later"), QMessageBox::RejectRole);
-    box->setDefaultButton(recover);
-    box->setEscapeButton(later);
-    connect(box, &QMessageBox::finished, this, [this, box, recover, saved, discard, file] {
-        if (box->clickedButton() == recover) {
-            open_recovered(file);
-        } else if (saved != nullptr && box->clickedButton() == saved) {
-            open(file.original);
-        } else if (box->clickedButton() == discard) {
-            Recovery::discard(file);
-        }
-    });
-    box->open();
-}
-
-void FileController::open_recovered(const RecoveredFile& file) {
-    start_open(file.path, [this, file] {
-        // It takes the place of the document that it came from, and is unsaved. The recovered file goes when that is saved.
-        document_.set_path(file.original);
-        document_.undo_stack()->resetClean();
-        auto* done = new QObject(this);
-        connect(document_.undo_stack(), &QUndoStack::cleanChanged, done, [file, done](bool clean) {
-            if (clean) {
-                Recovery::discard(file);
-                done->deleteLater();
             }
+            const int left = int(missing_textures(document_.scene()).size());
+            Q_EMIT textures_missing(left);
+            Q_EMIT message(left == 0 ? tr("%n image(s) found; none is missing.", nullptr, count)
+                                     : tr("%n image(s) found.", nullptr, count) + QLatin1Char(' ') +
+                                           tr("%n image(s) still missing.", nullptr, left));
         });
-    });
 }
 
 } // namespace atrium::ui

@@ -11,10 +11,11 @@ namespace atrium::ui {
 namespace {
 
 QString unit_name(double scale) {
-    static const std::pair<double, const char*> kUnits[] = {{0.001, QT_TRANSLATE_NOOP("ImportBar", "millimetres")},
-                                                            {0.01, QT_TRANSLATE_NOOP("ImportBar", "centimetres")},
-                                                            {0.0254, QT_TRANSLATE_NOOP("ImportBar", "inches")},
-                                                            {0.3048, QT_TRANSLATE_NOOP("ImportBar", "feet")}};
+    static const std::pair<double, const char*> kUnits[] = {
+        {0.001, QT_TRANSLATE_NOOP("atrium::ui::ImportBar", "millimetres")},
+        {0.01, QT_TRANSLATE_NOOP("atrium::ui::ImportBar", "centimetres")},
+        {0.0254, QT_TRANSLATE_NOOP("atrium::ui::ImportBar", "inches")},
+        {0.3048, QT_TRANSLATE_NOOP("atrium::ui::ImportBar", "feet")}};
     for (const auto& [factor, name] : kUnits) {
         if (std::abs(scale / factor - 1) < 1e-6) {
             return ImportBar::tr(name);

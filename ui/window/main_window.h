@@ -27,6 +27,7 @@ class OverlayController;
 class FileController;
 class ImportBar;
 class LibraryPanel;
+class NoticeBar;
 class PhotometryController;
 class PropertiesPanel;
 class SceneTreePanel;
@@ -71,6 +72,7 @@ private:
     void make_tool_bar();
     void make_status_bar();
     void connect_files();
+    void connect_notices();
     void connect_edit();
     void connect_view();
     void make_library();
@@ -102,6 +104,8 @@ private:
     ViewportWidget* viewport_ = nullptr;
     StartPage* start_ = nullptr;
     ImportBar* import_bar_ = nullptr;
+    NoticeBar* autosave_notice_ = nullptr;
+    NoticeBar* images_notice_ = nullptr;
     FalseColorBar* false_color_bar_ = nullptr;
     OverlayController* overlays_ = nullptr;
     QStackedWidget* pages_ = nullptr;

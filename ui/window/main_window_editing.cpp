@@ -1,9 +1,13 @@
-// The window's wiring of library, clipboard, snapping and cameras.
+// The window's wiring of editing: adding, library, clipboard, snapping and cameras.
 #include "ui/actions/actions.h"
 #include "ui/actions/edit_controller.h"
 #include "ui/panels/library_panel.h"
+#include "ui/panels/properties_panel.h"
+#include "ui/panels/scene_tree_panel.h"
 #include "ui/viewport/viewport_widget.h"
 #include "ui/window/main_window.h"
+#include "ui/window/main_window_tables.h"
+#include "ui/window/photometry_controller.h"
 #include "ui/window/settings.h"
 
 #include <QActionGroup>
@@ -28,6 +32,46 @@ QString length_text(double metres) {
 QString angle_text(double degrees) { return QLocale().toString(degrees, 'g', 3) + QChar(0x00B0); }
 
 } // namespace
+
+void MainWindow::connect_edit() {
+    on(ActionId::Undo, [this] { document_.undo(); });
+    on(ActionId::Redo, [this] { document_.redo(); });
+    on(ActionId::AddDaylight, [this] { edit_->add_daylight(); });
+    on(ActionId::Duplicate, [this] { edit_->duplicate(); });
+    on(ActionId::Delete, [this] { edit_->remove(); });
+    on(ActionId::Rename, [this] { tree_->rename_active(); });
+    on(ActionId::Hide, [this] { edit_->hide(); });
+    on(ActionId::ShowAll, [this] { edit_->show_all(); });
+    on(ActionId::Group, [this] { edit_->group(); });
+    on(ActionId::SelectAll, [this] { edit_->select_all(); });
+    on(ActionId::SelectNone, [this] { edit_->select_none(); });
+    for (const auto& [id, kind] : kAdd) {
+        on(id, [this, what = kind] {
+            const bool was_empty = document_.scene().nodes.empty();
+            started_ = true;
+            update_page();
+            edit_->add(what, was_empty ? dvec3(0.0) : viewport_->placement_point());
+            if (was_empty) {
+                viewport_->frame_all();
+            }
+        });
+    }
+    on(ActionId::AddLuminaire, [this] { photometry_->choose_and_add([this] { return lamp_place(); }); });
+    connect(photometry_, &PhotometryController::message, this, &MainWindow::say);
+    connect(properties_, &PropertiesPanel::choose_photometry, photometry_, &PhotometryController::choose);
+    on(ActionId::AddCamera, [this] {
+        started_ = true;
+        update_page();
+        edit_->add_camera_here(viewport_->camera());
+    });
+    connect(edit_, &EditController::message, this, &MainWindow::say);
+}
+
+dvec3 MainWindow::lamp_place() {
+    started_ = true;
+    update_page();
+    return document_.scene().nodes.empty() ? dvec3(0.0, kLampHeight, 0.0) : viewport_->lamp_place();
+}
 
 void MainWindow::make_library() {
     library_ = new LibraryPanel;

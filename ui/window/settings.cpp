@@ -6,10 +6,17 @@
 #include <QSettings>
 #include <QStandardPaths>
 
+#include <algorithm>
+
 namespace atrium::ui {
 
 namespace {
 constexpr int kMaxRecent = 10;
+constexpr int kAutosaveSeconds = 30;
+constexpr int kShortestAutosave = 10;
+constexpr int kLongestAutosave = 120;
+const QString kLanguage = QStringLiteral("program/language");
+const QString kAutosave = QStringLiteral("program/autosave_seconds");
 const QString kGeometry = QStringLiteral("window/geometry");
 const QString kLayout = QStringLiteral("window/layout1"); // the number rises when the docks change
 const QString kRecent = QStringLiteral("files/recent");
@@ -162,6 +169,14 @@ void Settings::set_scale_choice(LightQuantity quantity, const ScaleChoice& choic
     settings.setValue(QStringLiteral("minimum"), choice.minimum);
     settings.setValue(QStringLiteral("maximum"), choice.maximum);
 }
+
+QString Settings::language() const { return QSettings().value(kLanguage).toString(); }
+void Settings::set_language(const QString& language) { QSettings().setValue(kLanguage, language); }
+
+int Settings::autosave_seconds() const {
+    return std::clamp(QSettings().value(kAutosave, kAutosaveSeconds).toInt(), kShortestAutosave, kLongestAutosave);
+}
+void Settings::set_autosave_seconds(int seconds) { QSettings().setValue(kAutosave, seconds); }
 
 bool Settings::contours() const { return QSettings().value(kContours, false).toBool(); }
 void Settings::set_contours(bool on) { QSettings().setValue(kContours, on); }

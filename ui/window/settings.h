@@ -47,6 +47,11 @@ public:
     void set_false_color(std::optional<LightQuantity> quantity);
     [[nodiscard]] ScaleChoice scale_choice(LightQuantity quantity) const;
     void set_scale_choice(LightQuantity quantity, const ScaleChoice& choice);
+    /// "fr", "en"; empty = that of the system.
+    [[nodiscard]] QString language() const;
+    void set_language(const QString& language);
+    [[nodiscard]] int autosave_seconds() const; ///< after a change, 10 to 120
+    void set_autosave_seconds(int seconds);
     [[nodiscard]] bool contours() const;
     void set_contours(bool on);
 };

@@ -1,0 +1,4146 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="fr" sourcelanguage="en">
+<context>
+    <name>Actions</name>
+    <message>
+        <source>&amp;New</source>
+        <translation>&amp;Nouveau</translation>
+    </message>
+    <message>
+        <source>Start an empty scene</source>
+        <translation>Commencer une scène vide</translation>
+    </message>
+    <message>
+        <source>&amp;Open...</source>
+        <translation>&amp;Ouvrir...</translation>
+    </message>
+    <message>
+        <source>Open a glTF file or an Atrium project</source>
+        <translation>Ouvrir un fichier glTF ou un projet Atrium</translation>
+    </message>
+    <message>
+        <source>&amp;Import...</source>
+        <translation>&amp;Importer...</translation>
+    </message>
+    <message>
+        <source>Add the objects of another file to this scene, in a group of their own</source>
+        <translation>Ajouter à cette scène les objets d&apos;un autre fichier, dans un groupe à part</translation>
+    </message>
+    <message>
+        <source>&amp;Save</source>
+        <translation>&amp;Enregistrer</translation>
+    </message>
+    <message>
+        <source>Save the project with its light</source>
+        <translation>Enregistrer le projet avec sa lumière</translation>
+    </message>
+    <message>
+        <source>Save &amp;As...</source>
+        <translation>Enregistrer &amp;sous...</translation>
+    </message>
+    <message>
+        <source>Save the project under another name</source>
+        <translation>Enregistrer le projet sous un autre nom</translation>
+    </message>
+    <message>
+        <source>Re&amp;vert...</source>
+        <translation>Re&amp;venir à la version enregistrée...</translation>
+    </message>
+    <message>
+        <source>Go back to the file as it was saved; what was changed since is put aside</source>
+        <translation>Revenir au fichier tel qu&apos;il a été enregistré ; ce qui a changé depuis est mis de côté</translation>
+    </message>
+    <message>
+        <source>Recovered &amp;Work...</source>
+        <translation>&amp;Travail récupéré...</translation>
+    </message>
+    <message>
+        <source>Look at work that was not saved: kept after a crash, reverted or discarded</source>
+        <translation>Voir le travail non enregistré : gardé après un arrêt brutal, abandonné ou rejeté</translation>
+    </message>
+    <message>
+        <source>&amp;Find Missing Images...</source>
+        <translation>&amp;Chercher les images manquantes...</translation>
+    </message>
+    <message>
+        <source>Look for the images of materials that were not where the file says</source>
+        <translation>Chercher les images des matériaux qui n&apos;étaient pas là où le fichier l&apos;indique</translation>
+    </message>
+    <message>
+        <source>Prefere&amp;nces...</source>
+        <translation>Préfére&amp;nces...</translation>
+    </message>
+    <message>
+        <source>Language, and how often unsaved work is kept</source>
+        <translation>Langue, et fréquence de sauvegarde du travail non enregistré</translation>
+    </message>
+    <message>
+        <source>Export &amp;glTF...</source>
+        <translation>Exporter en &amp;glTF...</translation>
+    </message>
+    <message>
+        <source>Write the scene as a glTF file for other programs</source>
+        <translation>Écrire la scène dans un fichier glTF pour d&apos;autres programmes</translation>
+    </message>
+    <message>
+        <source>Export &amp;Picture...</source>
+        <translation>Exporter une &amp;image...</translation>
+    </message>
+    <message>
+        <source>Render the present view to a PNG or EXR file</source>
+        <translation>Calculer la vue actuelle dans un fichier PNG ou EXR</translation>
+    </message>
+    <message>
+        <source>&amp;Quit</source>
+        <translation>&amp;Quitter</translation>
+    </message>
+    <message>
+        <source>Close Atrium</source>
+        <translation>Fermer Atrium</translation>
+    </message>
+    <message>
+        <source>&amp;Undo</source>
+        <translation>&amp;Annuler</translation>
+    </message>
+    <message>
+        <source>Take back the last change</source>
+        <translation>Annuler la dernière modification</translation>
+    </message>
+    <message>
+        <source>&amp;Redo</source>
+        <translation>&amp;Rétablir</translation>
+    </message>
+    <message>
+        <source>Do again what was taken back</source>
+        <translation>Refaire ce qui a été annulé</translation>
+    </message>
+    <message>
+        <source>Cu&amp;t</source>
+        <translation>Cou&amp;per</translation>
+    </message>
+    <message>
+        <source>Take the selected objects out of the scene, to be pasted elsewhere</source>
+        <translation>Retirer les objets sélectionnés de la scène pour les coller ailleurs</translation>
+    </message>
+    <message>
+        <source>&amp;Copy</source>
+        <translation>&amp;Copier</translation>
+    </message>
+    <message>
+        <source>Copy the selected objects, for this window or another one</source>
+        <translation>Copier les objets sélectionnés, pour cette fenêtre ou une autre</translation>
+    </message>
+    <message>
+        <source>&amp;Paste</source>
+        <translation>C&amp;oller</translation>
+    </message>
+    <message>
+        <source>Put the copied objects on the surface in the middle of the view</source>
+        <translation>Poser les objets copiés sur la surface au milieu de la vue</translation>
+    </message>
+    <message>
+        <source>Paste in P&amp;lace</source>
+        <translation>Coller sur p&amp;lace</translation>
+    </message>
+    <message>
+        <source>Put the copied objects where they were copied from</source>
+        <translation>Poser les objets copiés là d&apos;où ils viennent</translation>
+    </message>
+    <message>
+        <source>Copy &amp;Material</source>
+        <translation>Copier le &amp;matériau</translation>
+    </message>
+    <message>
+        <source>Copy the material of the active object</source>
+        <translation>Copier le matériau de l&apos;objet actif</translation>
+    </message>
+    <message>
+        <source>Paste M&amp;aterial</source>
+        <translation>Coller le m&amp;atériau</translation>
+    </message>
+    <message>
+        <source>Give the copied material to the selected objects</source>
+        <translation>Donner le matériau copié aux objets sélectionnés</translation>
+    </message>
+    <message>
+        <source>&amp;Duplicate</source>
+        <translation>&amp;Dupliquer</translation>
+    </message>
+    <message>
+        <source>Copy the selected objects in place</source>
+        <translation>Copier sur place les objets sélectionnés</translation>
+    </message>
+    <message>
+        <source>De&amp;lete</source>
+        <translation>&amp;Supprimer</translation>
+    </message>
+    <message>
+        <source>Remove the selected objects</source>
+        <translation>Retirer les objets sélectionnés</translation>
+    </message>
+    <message>
+        <source>Re&amp;name</source>
+        <translation>Re&amp;nommer</translation>
+    </message>
+    <message>
+        <source>Rename the active object in the scene tree</source>
+        <translation>Renommer l&apos;objet actif dans l&apos;arbre de la scène</translation>
+    </message>
+    <message>
+        <source>&amp;Hide</source>
+        <translation>Mas&amp;quer</translation>
+    </message>
+    <message>
+        <source>Hide the selected objects; hidden objects take no part in the light</source>
+        <translation>Masquer les objets sélectionnés ; un objet masqué ne compte pas dans la lumière</translation>
+    </message>
+    <message>
+        <source>Sho&amp;w All</source>
+        <translation>Tout a&amp;fficher</translation>
+    </message>
+    <message>
+        <source>Show every hidden object</source>
+        <translation>Afficher tous les objets masqués</translation>
+    </message>
+    <message>
+        <source>&amp;Isolate</source>
+        <translation>&amp;Isoler</translation>
+    </message>
+    <message>
+        <source>Show only the selected objects, in the light of the whole scene; again to show everything</source>
+        <translation>N&apos;afficher que les objets sélectionnés, dans la lumière de toute la scène ; de nouveau pour tout afficher</translation>
+    </message>
+    <message>
+        <source>Loc&amp;k</source>
+        <translation>&amp;Verrouiller</translation>
+    </message>
+    <message>
+        <source>Lock the selected objects in place, or unlock them</source>
+        <translation>Verrouiller les objets sélectionnés à leur place, ou les déverrouiller</translation>
+    </message>
+    <message>
+        <source>&amp;Group</source>
+        <translation>&amp;Grouper</translation>
+    </message>
+    <message>
+        <source>Put the selected objects into a new group</source>
+        <translation>Mettre les objets sélectionnés dans un nouveau groupe</translation>
+    </message>
+    <message>
+        <source>Select &amp;All</source>
+        <translation>&amp;Tout sélectionner</translation>
+    </message>
+    <message>
+        <source>Select every object that is shown and not locked</source>
+        <translation>Sélectionner tous les objets affichés et non verrouillés</translation>
+    </message>
+    <message>
+        <source>Select N&amp;one</source>
+        <translation>Tout &amp;désélectionner</translation>
+    </message>
+    <message>
+        <source>Select nothing</source>
+        <translation>Ne rien sélectionner</translation>
+    </message>
+    <message>
+        <source>&amp;Polygon</source>
+        <translation>&amp;Polygone</translation>
+    </message>
+    <message>
+        <source>Add a flat rectangle</source>
+        <translation>Ajouter un rectangle plat</translation>
+    </message>
+    <message>
+        <source>&amp;Box</source>
+        <translation>&amp;Boîte</translation>
+    </message>
+    <message>
+        <source>Add a box</source>
+        <translation>Ajouter une boîte</translation>
+    </message>
+    <message>
+        <source>&amp;Sphere</source>
+        <translation>&amp;Sphère</translation>
+    </message>
+    <message>
+        <source>Add a sphere</source>
+        <translation>Ajouter une sphère</translation>
+    </message>
+    <message>
+        <source>C&amp;ylinder</source>
+        <translation>C&amp;ylindre</translation>
+    </message>
+    <message>
+        <source>Add a cylinder</source>
+        <translation>Ajouter un cylindre</translation>
+    </message>
+    <message>
+        <source>&amp;Cone</source>
+        <translation>&amp;Cône</translation>
+    </message>
+    <message>
+        <source>Add a cone</source>
+        <translation>Ajouter un cône</translation>
+    </message>
+    <message>
+        <source>&amp;Disc</source>
+        <translation>&amp;Disque</translation>
+    </message>
+    <message>
+        <source>Add a disc</source>
+        <translation>Ajouter un disque</translation>
+    </message>
+    <message>
+        <source>P&amp;oint Light</source>
+        <translation>Lumière p&amp;onctuelle</translation>
+    </message>
+    <message>
+        <source>Add a lamp that shines in all directions</source>
+        <translation>Ajouter une lampe qui éclaire dans toutes les directions</translation>
+    </message>
+    <message>
+        <source>Spo&amp;t Light</source>
+        <translation>Pro&amp;jecteur</translation>
+    </message>
+    <message>
+        <source>Add a lamp with a cone of light</source>
+        <translation>Ajouter une lampe avec un cône de lumière</translation>
+    </message>
+    <message>
+        <source>S&amp;un</source>
+        <translation>Sol&amp;eil</translation>
+    </message>
+    <message>
+        <source>Add sunlight</source>
+        <translation>Ajouter la lumière du soleil</translation>
+    </message>
+    <message>
+        <source>Day&amp;light</source>
+        <translation>Lumière du jo&amp;ur</translation>
+    </message>
+    <message>
+        <source>Add a sun and a sky in one step</source>
+        <translation>Ajouter un soleil et un ciel en une étape</translation>
+    </message>
+    <message>
+        <source>&amp;Area Light</source>
+        <translation>Lumière sur&amp;facique</translation>
+    </message>
+    <message>
+        <source>Add a luminous disc</source>
+        <translation>Ajouter un disque lumineux</translation>
+    </message>
+    <message>
+        <source>&amp;IES Luminaire...</source>
+        <translation>Luminaire &amp;IES...</translation>
+    </message>
+    <message>
+        <source>Add a lamp that shines as a maker&apos;s photometric file (IES, EULUMDAT) says</source>
+        <translation>Ajouter une lampe qui éclaire comme l&apos;indique un fichier photométrique (IES, EULUMDAT)</translation>
+    </message>
+    <message>
+        <source>Ca&amp;mera</source>
+        <translation>Ca&amp;méra</translation>
+    </message>
+    <message>
+        <source>Add a camera that sees the present view</source>
+        <translation>Ajouter une caméra qui voit la vue actuelle</translation>
+    </message>
+    <message>
+        <source>&amp;Select</source>
+        <translation>&amp;Sélectionner</translation>
+    </message>
+    <message>
+        <source>Select objects by clicking</source>
+        <translation>Sélectionner des objets en cliquant</translation>
+    </message>
+    <message>
+        <source>&amp;Move</source>
+        <translation>&amp;Déplacer</translation>
+    </message>
+    <message>
+        <source>Move the selected objects</source>
+        <translation>Déplacer les objets sélectionnés</translation>
+    </message>
+    <message>
+        <source>&amp;Rotate</source>
+        <translation>&amp;Tourner</translation>
+    </message>
+    <message>
+        <source>Turn the selected objects</source>
+        <translation>Tourner les objets sélectionnés</translation>
+    </message>
+    <message>
+        <source>S&amp;cale</source>
+        <translation>&amp;Redimensionner</translation>
+    </message>
+    <message>
+        <source>Scale the selected objects</source>
+        <translation>Changer la taille des objets sélectionnés</translation>
+    </message>
+    <message>
+        <source>S&amp;nap</source>
+        <translation>Ma&amp;gnétisme</translation>
+    </message>
+    <message>
+        <source>Move, turn and scale in steps and onto faces of other objects; Ctrl turns this round while dragging</source>
+        <translation>Déplacer, tourner et redimensionner par pas et contre les faces d&apos;autres objets ; Ctrl inverse cela pendant le geste</translation>
+    </message>
+    <message>
+        <source>Slide on S&amp;urfaces</source>
+        <translation>Glisser sur les s&amp;urfaces</translation>
+    </message>
+    <message>
+        <source>An object that is dragged goes on the floor, table or wall under the cursor</source>
+        <translation>L&apos;objet déplacé se pose sur le sol, la table ou le mur sous le curseur</translation>
+    </message>
+    <message>
+        <source>Turn &amp;with Surfaces</source>
+        <translation>Tourner &amp;avec les surfaces</translation>
+    </message>
+    <message>
+        <source>An object that slides onto another surface turns with it, as pictures and wall lights do</source>
+        <translation>L&apos;objet qui glisse sur une autre surface tourne avec elle, comme un tableau ou une applique</translation>
+    </message>
+    <message>
+        <source>Drop to Sur&amp;face</source>
+        <translation>Poser sur la sur&amp;face</translation>
+    </message>
+    <message>
+        <source>Lower the selected objects until they rest on what is below</source>
+        <translation>Descendre les objets sélectionnés jusqu&apos;à ce qu&apos;ils reposent sur ce qui est dessous</translation>
+    </message>
+    <message>
+        <source>M&amp;easure Light</source>
+        <translation>M&amp;esurer la lumière</translation>
+    </message>
+    <message>
+        <source>Read the light under the cursor; a click leaves a measuring point, a click on one removes it</source>
+        <translation>Lire la lumière sous le curseur ; un clic laisse un point de mesure, un clic sur un point l&apos;enlève</translation>
+    </message>
+    <message>
+        <source>Cop&amp;y Measuring Points</source>
+        <translation>Cop&amp;ier les points de mesure</translation>
+    </message>
+    <message>
+        <source>Copy all measuring points with their light to the clipboard, as CSV</source>
+        <translation>Copier tous les points de mesure avec leur lumière dans le presse-papiers, en CSV</translation>
+    </message>
+    <message>
+        <source>Rem&amp;ove Measuring Points</source>
+        <translation>Enle&amp;ver les points de mesure</translation>
+    </message>
+    <message>
+        <source>Take all measuring points away</source>
+        <translation>Retirer tous les points de mesure</translation>
+    </message>
+    <message>
+        <source>&amp;Frame Selection</source>
+        <translation>&amp;Cadrer la sélection</translation>
+    </message>
+    <message>
+        <source>Bring the selected objects into view</source>
+        <translation>Amener les objets sélectionnés dans la vue</translation>
+    </message>
+    <message>
+        <source>Frame &amp;All</source>
+        <translation>&amp;Tout cadrer</translation>
+    </message>
+    <message>
+        <source>Bring the whole scene into view</source>
+        <translation>Amener toute la scène dans la vue</translation>
+    </message>
+    <message>
+        <source>&amp;Walk</source>
+        <translation>&amp;Marcher</translation>
+    </message>
+    <message>
+        <source>Walk through the room: W A S D to go, mouse to look, Esc to leave</source>
+        <translation>Marcher dans la pièce : W A S D pour avancer, la souris pour regarder, Échap pour quitter</translation>
+    </message>
+    <message>
+        <source>&amp;Orbit about Selection</source>
+        <translation>T&amp;ourner autour de la sélection</translation>
+    </message>
+    <message>
+        <source>Turn the view about what is selected instead of about the point under the cursor</source>
+        <translation>Tourner la vue autour de la sélection plutôt que du point sous le curseur</translation>
+    </message>
+    <message>
+        <source>&amp;Next Camera</source>
+        <translation>Caméra &amp;suivante</translation>
+    </message>
+    <message>
+        <source>Look through the next camera of the scene</source>
+        <translation>Regarder par la caméra suivante de la scène</translation>
+    </message>
+    <message>
+        <source>&amp;Previous Camera</source>
+        <translation>Caméra &amp;précédente</translation>
+    </message>
+    <message>
+        <source>Look through the camera before</source>
+        <translation>Regarder par la caméra précédente</translation>
+    </message>
+    <message>
+        <source>&amp;Brighter</source>
+        <translation>&amp;Plus clair</translation>
+    </message>
+    <message>
+        <source>Raise the exposure by a third of a stop</source>
+        <translation>Augmenter l&apos;exposition d&apos;un tiers de diaphragme</translation>
+    </message>
+    <message>
+        <source>&amp;Darker</source>
+        <translation>Plus som&amp;bre</translation>
+    </message>
+    <message>
+        <source>Lower the exposure by a third of a stop</source>
+        <translation>Diminuer l&apos;exposition d&apos;un tiers de diaphragme</translation>
+    </message>
+    <message>
+        <source>Automatic &amp;Exposure</source>
+        <translation>&amp;Exposition automatique</translation>
+    </message>
+    <message>
+        <source>Go back to automatic exposure</source>
+        <translation>Revenir à l&apos;exposition automatique</translation>
+    </message>
+    <message>
+        <source>Wire&amp;frame</source>
+        <translation>&amp;Fil de fer</translation>
+    </message>
+    <message>
+        <source>Draw the edges of the light mesh over the picture</source>
+        <translation>Dessiner les arêtes du maillage de lumière par-dessus l&apos;image</translation>
+    </message>
+    <message>
+        <source>Caustic Bo&amp;xes</source>
+        <translation>Cadres des causti&amp;ques</translation>
+    </message>
+    <message>
+        <source>Outline the textures that hold light bundled by mirrors and glass</source>
+        <translation>Entourer les textures qui portent la lumière concentrée par les miroirs et le verre</translation>
+    </message>
+    <message>
+        <source>Te&amp;xel Grid</source>
+        <translation>Grille des te&amp;xels</translation>
+    </message>
+    <message>
+        <source>Draw lines between the texels of the selected objects&apos; caustics, where these are large enough to be seen</source>
+        <translation>Tracer des lignes entre les texels des caustiques des objets sélectionnés, là où ils sont assez grands pour être vus</translation>
+    </message>
+    <message>
+        <source>&amp;Particle Landings</source>
+        <translation>Impacts des parti&amp;cules</translation>
+    </message>
+    <message>
+        <source>Draw every particle where it landed on the selected objects; takes memory while it is on</source>
+        <translation>Dessiner chaque particule là où elle a touché les objets sélectionnés ; prend de la mémoire tant que c&apos;est actif</translation>
+    </message>
+    <message>
+        <source>&amp;Flat: One Value per Face</source>
+        <translation>&amp;Aplat : une valeur par face</translation>
+    </message>
+    <message>
+        <source>Show every face of the mesh in the mean of its light</source>
+        <translation>Afficher chaque face du maillage à la moyenne de sa lumière</translation>
+    </message>
+    <message>
+        <source>Caustics on the &amp;Mesh</source>
+        <translation>Caustiques sur le &amp;maillage</translation>
+    </message>
+    <message>
+        <source>Show caustics at the corners of the mesh, without textures</source>
+        <translation>Afficher les caustiques aux sommets du maillage, sans textures</translation>
+    </message>
+    <message>
+        <source>Caustics in &amp;Textures</source>
+        <translation>Caustiques en &amp;textures</translation>
+    </message>
+    <message>
+        <source>Show the light as it is computed</source>
+        <translation>Afficher la lumière telle qu&apos;elle est calculée</translation>
+    </message>
+    <message>
+        <source>Textures without &amp;Restriction</source>
+        <translation>Textures sans &amp;restriction</translation>
+    </message>
+    <message>
+        <source>Show caustics as if the same number of texels covered whole surfaces</source>
+        <translation>Afficher les caustiques comme si le même nombre de texels couvrait des surfaces entières</translation>
+    </message>
+    <message>
+        <source>Inspect Caus&amp;tics</source>
+        <translation>&amp;Inspecter les caustiques</translation>
+    </message>
+    <message>
+        <source>List every surface that caustics fall on: what was decided, why, and what can be set by hand</source>
+        <translation>Lister chaque surface qui reçoit des caustiques : ce qui a été décidé, pourquoi, et ce qui peut être réglé à la main</translation>
+    </message>
+    <message>
+        <source>C&amp;onvergence</source>
+        <translation>Con&amp;vergence</translation>
+    </message>
+    <message>
+        <source>Plot the estimated error against run time, with every figure of the solution</source>
+        <translation>Tracer l&apos;erreur estimée en fonction du temps de calcul, avec tous les chiffres de la solution</translation>
+    </message>
+    <message>
+        <source>&amp;Look through Near Walls</source>
+        <translation>&amp;Voir à travers les murs proches</translation>
+    </message>
+    <message>
+        <source>From outside, leave out the walls and the ceiling that hide the room</source>
+        <translation>De l&apos;extérieur, omettre les murs et le plafond qui cachent la pièce</translation>
+    </message>
+    <message>
+        <source>&amp;Picture</source>
+        <translation>&amp;Image</translation>
+    </message>
+    <message>
+        <source>Show the room as the eye sees it</source>
+        <translation>Afficher la pièce comme l&apos;œil la voit</translation>
+    </message>
+    <message>
+        <source>&amp;Illuminance</source>
+        <translation>É&amp;clairement</translation>
+    </message>
+    <message>
+        <source>Show in false colour how much light arrives on surfaces, in lux</source>
+        <translation>Montrer en fausses couleurs la lumière qui arrive sur les surfaces, en lux</translation>
+    </message>
+    <message>
+        <source>&amp;Luminance</source>
+        <translation>&amp;Luminance</translation>
+    </message>
+    <message>
+        <source>Show in false colour how bright surfaces look, in cd/m²</source>
+        <translation>Montrer en fausses couleurs la luminosité apparente des surfaces, en cd/m²</translation>
+    </message>
+    <message>
+        <source>&amp;Contour Lines</source>
+        <translation>Courbes de &amp;niveau</translation>
+    </message>
+    <message>
+        <source>Draw lines of equal light at the round values of the legend, in false colour</source>
+        <translation>Tracer les lignes d&apos;égale lumière aux valeurs rondes de la légende, en fausses couleurs</translation>
+    </message>
+    <message>
+        <source>D&amp;irect Light</source>
+        <translation>Lumière &amp;directe</translation>
+    </message>
+    <message>
+        <source>Show the light that comes straight from lamps, sun and sky</source>
+        <translation>Afficher la lumière qui vient directement des lampes, du soleil et du ciel</translation>
+    </message>
+    <message>
+        <source>Diff&amp;use Light</source>
+        <translation>Lumière di&amp;ffuse</translation>
+    </message>
+    <message>
+        <source>Show the light that other surfaces reflect</source>
+        <translation>Afficher la lumière renvoyée par les autres surfaces</translation>
+    </message>
+    <message>
+        <source>&amp;Caustics</source>
+        <translation>Causti&amp;ques</translation>
+    </message>
+    <message>
+        <source>Show the light that mirrors and glass throw onto surfaces</source>
+        <translation>Afficher la lumière que les miroirs et le verre projettent sur les surfaces</translation>
+    </message>
+    <message>
+        <source>&amp;Library</source>
+        <translation>&amp;Bibliothèque</translation>
+    </message>
+    <message>
+        <source>Shapes, materials, lamps and furniture to drag into the room</source>
+        <translation>Formes, matériaux, lampes et meubles à glisser dans la pièce</translation>
+    </message>
+    <message>
+        <source>&amp;Stop</source>
+        <translation>&amp;Arrêter</translation>
+    </message>
+    <message>
+        <source>Stop computing light; the last picture stays</source>
+        <translation>Arrêter le calcul de la lumière ; la dernière image reste</translation>
+    </message>
+    <message>
+        <source>&amp;Resume</source>
+        <translation>&amp;Reprendre</translation>
+    </message>
+    <message>
+        <source>Compute the light of the present scene</source>
+        <translation>Calculer la lumière de la scène actuelle</translation>
+    </message>
+    <message>
+        <source>&amp;Find Command...</source>
+        <translation>C&amp;hercher une commande...</translation>
+    </message>
+    <message>
+        <source>Find a command by typing its name</source>
+        <translation>Trouver une commande en tapant son nom</translation>
+    </message>
+    <message>
+        <source>&amp;Keyboard Shortcuts</source>
+        <translation>&amp;Raccourcis clavier</translation>
+    </message>
+    <message>
+        <source>List every key and what it does</source>
+        <translation>Lister toutes les touches et ce qu&apos;elles font</translation>
+    </message>
+    <message>
+        <source>&amp;About Atrium</source>
+        <translation>À &amp;propos d&apos;Atrium</translation>
+    </message>
+    <message>
+        <source>Version and licence</source>
+        <translation>Version et licence</translation>
+    </message>
+</context>
+<context>
+    <name>Caustics</name>
+    <message>
+        <source>(deleted)</source>
+        <translation>(supprimé)</translation>
+    </message>
+    <message>
+        <source>(unnamed)</source>
+        <translation>(sans nom)</translation>
+    </message>
+    <message>
+        <source>contrast %1, %2 needed</source>
+        <translation>contraste %1, il faut %2</translation>
+    </message>
+    <message>
+        <source>%1 deviations beyond chance, %2 needed</source>
+        <translation>%1 écarts au-delà du hasard, il en faut %2</translation>
+    </message>
+    <message>
+        <source> (set by hand)</source>
+        <translation> (réglé à la main)</translation>
+    </message>
+    <message>
+        <source>finer detail than the mesh has (%1)</source>
+        <translation>détail plus fin que le maillage (%1)</translation>
+    </message>
+    <message>
+        <source>as even as chance allows (%1)</source>
+        <translation>aussi uniforme que le hasard le permet (%1)</translation>
+    </message>
+    <message>
+        <source>no finer detail than the mesh has (%1)</source>
+        <translation>pas de détail plus fin que le maillage (%1)</translation>
+    </message>
+    <message>
+        <source>too few particles to say</source>
+        <translation>trop peu de particules pour conclure</translation>
+    </message>
+    <message>
+        <source>pieces too small for a texture</source>
+        <translation>morceaux trop petits pour une texture</translation>
+    </message>
+    <message>
+        <source>, part %1</source>
+        <translation>, partie %1</translation>
+    </message>
+    <message>
+        <source>, piece %1</source>
+        <translation>, morceau %1</translation>
+    </message>
+    <message>
+        <source>, small pieces</source>
+        <translation>, petits morceaux</translation>
+    </message>
+    <message>
+        <source>, back</source>
+        <translation>, dos</translation>
+    </message>
+    <message>
+        <source>Texture</source>
+        <translation>Texture</translation>
+    </message>
+    <message>
+        <source>Mesh</source>
+        <translation>Maillage</translation>
+    </message>
+    <message>
+        <source> (by hand)</source>
+        <translation> (à la main)</translation>
+    </message>
+    <message>
+        <source>set by hand to the mesh; found: %1</source>
+        <translation>réglé à la main sur le maillage ; trouvé : %1</translation>
+    </message>
+    <message>
+        <source>set by hand to a texture; found: %1</source>
+        <translation>réglé à la main sur une texture ; trouvé : %1</translation>
+    </message>
+    <message>
+        <source>set by hand to a texture, which cannot be: %1</source>
+        <translation>réglé à la main sur une texture, ce qui ne se peut pas : %1</translation>
+    </message>
+    <message>
+        <source>Half as wide as narrow kernels</source>
+        <translation>Moitié de la largeur des noyaux étroits</translation>
+    </message>
+    <message>
+        <source>A quarter of the mesh; kernels are wide</source>
+        <translation>Un quart du maillage ; les noyaux sont larges</translation>
+    </message>
+    <message>
+        <source>About one particle a texel</source>
+        <translation>Environ une particule par texel</translation>
+    </message>
+    <message>
+        <source>The most light that a texel can hold</source>
+        <translation>Le maximum de lumière qu&apos;un texel peut contenir</translation>
+    </message>
+    <message>
+        <source>The memory for textures</source>
+        <translation>La mémoire des textures</translation>
+    </message>
+    <message>
+        <source>Set by hand</source>
+        <translation>Réglé à la main</translation>
+    </message>
+    <message>
+        <source>Equation 7 of the paper</source>
+        <translation>Équation 7 de l&apos;article</translation>
+    </message>
+    <message>
+        <source>Not known</source>
+        <translation>Inconnu</translation>
+    </message>
+    <message>
+        <source>spiral</source>
+        <translation>spirale</translation>
+    </message>
+    <message>
+        <source>There is no light yet.</source>
+        <translation>Il n&apos;y a pas encore de lumière.</translation>
+    </message>
+    <message>
+        <source>No caustics fall on any surface of this scene.</source>
+        <translation>Aucune surface de cette scène ne reçoit de caustiques.</translation>
+    </message>
+    <message>
+        <source>The light is still being computed.</source>
+        <translation>Le calcul de la lumière est en cours.</translation>
+    </message>
+    <message>
+        <source>1 texture</source>
+        <translation>1 texture</translation>
+    </message>
+    <message>
+        <source>%1 textures</source>
+        <translation>%1 textures</translation>
+    </message>
+    <message>
+        <source>, %1 · %2 particles sent, %3 landings kept</source>
+        <translation>, %1 · %2 particules émises, %3 impacts gardés</translation>
+    </message>
+    <message>
+        <source> · %1 in textures, %2 on the mesh</source>
+        <translation> · %1 en textures, %2 sur le maillage</translation>
+    </message>
+    <message>
+        <source>: %1 of the scene&apos;s light</source>
+        <translation> : %1 de la lumière de la scène</translation>
+    </message>
+    <message>
+        <source>%1 mm</source>
+        <translation>%1 mm</translation>
+    </message>
+    <message>
+        <source>%1 m</source>
+        <translation>%1 m</translation>
+    </message>
+    <message>
+        <source>%1 lm</source>
+        <translation>%1 lm</translation>
+    </message>
+    <message>
+        <source>%1 %</source>
+        <translation>%1 %</translation>
+    </message>
+</context>
+<context>
+    <name>Help</name>
+    <message>
+        <source>Find a command</source>
+        <translation>Chercher une commande</translation>
+    </message>
+    <message>
+        <source>Keyboard Shortcuts</source>
+        <translation>Raccourcis clavier</translation>
+    </message>
+    <message>
+        <source>Key</source>
+        <translation>Touche</translation>
+    </message>
+    <message>
+        <source>What it does</source>
+        <translation>Ce qu&apos;elle fait</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Échap</translation>
+    </message>
+    <message>
+        <source>Cancel the drag or the typing; leave walk mode</source>
+        <translation>Annuler le geste ou la saisie ; quitter la marche</translation>
+    </message>
+    <message>
+        <source>Enter</source>
+        <translation>Entrée</translation>
+    </message>
+    <message>
+        <source>Take over the number in a field</source>
+        <translation>Valider le nombre d&apos;un champ</translation>
+    </message>
+    <message>
+        <source>Up, Down, wheel</source>
+        <translation>Haut, bas, molette</translation>
+    </message>
+    <message>
+        <source>Change the number in the focused field; Shift is finer</source>
+        <translation>Changer le nombre du champ actif ; Maj pour plus de finesse</translation>
+    </message>
+    <message>
+        <source>About Atrium</source>
+        <translation>À propos d&apos;Atrium</translation>
+    </message>
+    <message>
+        <source>Interiors with live global illumination: hierarchical radiosity that follows every edit.
+
+Free software; the licence is in the file LICENSE.</source>
+        <translation>Des intérieurs à l&apos;illumination globale en direct : une radiosité hiérarchique qui suit chaque modification.
+
+Logiciel libre ; la licence est dans le fichier LICENSE.</translation>
+    </message>
+</context>
+<context>
+    <name>Legend</name>
+    <message>
+        <source>Illuminance</source>
+        <translation>Éclairement</translation>
+    </message>
+    <message>
+        <source>Luminance</source>
+        <translation>Luminance</translation>
+    </message>
+</context>
+<context>
+    <name>Library</name>
+    <message>
+        <source>White paint, LRV 90</source>
+        <translation>Peinture blanche, LRV 90</translation>
+    </message>
+    <message>
+        <source>Brilliant white, matt emulsion</source>
+        <translation>Blanc brillant, émulsion mate</translation>
+    </message>
+    <message>
+        <source>Warm white paint, LRV 84</source>
+        <translation>Peinture blanc chaud, LRV 84</translation>
+    </message>
+    <message>
+        <source>Off-white walls, as RAL 9010</source>
+        <translation>Murs blanc cassé, comme RAL 9010</translation>
+    </message>
+    <message>
+        <source>Light grey paint, LRV 70</source>
+        <translation>Peinture gris clair, LRV 70</translation>
+    </message>
+    <message>
+        <source>Usual assumption for ceilings in lighting calculations</source>
+        <translation>Hypothèse usuelle pour les plafonds en calcul d&apos;éclairage</translation>
+    </message>
+    <message>
+        <source>Grey paint, LRV 50</source>
+        <translation>Peinture grise, LRV 50</translation>
+    </message>
+    <message>
+        <source>Usual assumption for walls in lighting calculations</source>
+        <translation>Hypothèse usuelle pour les murs en calcul d&apos;éclairage</translation>
+    </message>
+    <message>
+        <source>Mid grey paint, LRV 20</source>
+        <translation>Peinture gris moyen, LRV 20</translation>
+    </message>
+    <message>
+        <source>Usual assumption for floors in lighting calculations</source>
+        <translation>Hypothèse usuelle pour les sols en calcul d&apos;éclairage</translation>
+    </message>
+    <message>
+        <source>Anthracite paint, LRV 8</source>
+        <translation>Peinture anthracite, LRV 8</translation>
+    </message>
+    <message>
+        <source>As RAL 7016</source>
+        <translation>Comme RAL 7016</translation>
+    </message>
+    <message>
+        <source>Black paint, LRV 5</source>
+        <translation>Peinture noire, LRV 5</translation>
+    </message>
+    <message>
+        <source>Matt black</source>
+        <translation>Noir mat</translation>
+    </message>
+    <message>
+        <source>Cream paint, LRV 75</source>
+        <translation>Peinture crème, LRV 75</translation>
+    </message>
+    <message>
+        <source>Light yellow wall paint</source>
+        <translation>Peinture murale jaune clair</translation>
+    </message>
+    <message>
+        <source>Sage green paint, LRV 45</source>
+        <translation>Peinture vert sauge, LRV 45</translation>
+    </message>
+    <message>
+        <source>Muted green wall paint</source>
+        <translation>Peinture murale vert doux</translation>
+    </message>
+    <message>
+        <source>Blue paint, LRV 30</source>
+        <translation>Peinture bleue, LRV 30</translation>
+    </message>
+    <message>
+        <source>Mid blue wall paint</source>
+        <translation>Peinture murale bleu moyen</translation>
+    </message>
+    <message>
+        <source>Terracotta paint, LRV 22</source>
+        <translation>Peinture terre cuite, LRV 22</translation>
+    </message>
+    <message>
+        <source>Red-brown wall paint</source>
+        <translation>Peinture murale brun-rouge</translation>
+    </message>
+    <message>
+        <source>Gypsum plaster, LRV 80</source>
+        <translation>Plâtre, LRV 80</translation>
+    </message>
+    <message>
+        <source>Fresh, unpainted</source>
+        <translation>Frais, non peint</translation>
+    </message>
+    <message>
+        <source>Concrete, LRV 30</source>
+        <translation>Béton, LRV 30</translation>
+    </message>
+    <message>
+        <source>Fair-faced, light grey</source>
+        <translation>Parement lisse, gris clair</translation>
+    </message>
+    <message>
+        <source>Red brick, LRV 18</source>
+        <translation>Brique rouge, LRV 18</translation>
+    </message>
+    <message>
+        <source>Facing brick</source>
+        <translation>Brique de parement</translation>
+    </message>
+    <message>
+        <source>Oak, LRV 35</source>
+        <translation>Chêne, LRV 35</translation>
+    </message>
+    <message>
+        <source>Oiled oak floor or furniture</source>
+        <translation>Sol ou meuble en chêne huilé</translation>
+    </message>
+    <message>
+        <source>Maple, LRV 55</source>
+        <translation>Érable, LRV 55</translation>
+    </message>
+    <message>
+        <source>Light wood, varnished</source>
+        <translation>Bois clair, verni</translation>
+    </message>
+    <message>
+        <source>Walnut, LRV 12</source>
+        <translation>Noyer, LRV 12</translation>
+    </message>
+    <message>
+        <source>Dark wood, oiled</source>
+        <translation>Bois foncé, huilé</translation>
+    </message>
+    <message>
+        <source>Grey carpet, LRV 15</source>
+        <translation>Moquette grise, LRV 15</translation>
+    </message>
+    <message>
+        <source>Loop pile</source>
+        <translation>Bouclée</translation>
+    </message>
+    <message>
+        <source>Beige carpet, LRV 35</source>
+        <translation>Moquette beige, LRV 35</translation>
+    </message>
+    <message>
+        <source>Cut pile</source>
+        <translation>Velours</translation>
+    </message>
+    <message>
+        <source>Linen, LRV 50</source>
+        <translation>Lin, LRV 50</translation>
+    </message>
+    <message>
+        <source>Natural upholstery fabric</source>
+        <translation>Tissu d&apos;ameublement naturel</translation>
+    </message>
+    <message>
+        <source>White tile, LRV 80</source>
+        <translation>Carrelage blanc, LRV 80</translation>
+    </message>
+    <message>
+        <source>Glazed ceramic</source>
+        <translation>Céramique émaillée</translation>
+    </message>
+    <message>
+        <source>Light marble, LRV 60</source>
+        <translation>Marbre clair, LRV 60</translation>
+    </message>
+    <message>
+        <source>Honed</source>
+        <translation>Adouci</translation>
+    </message>
+    <message>
+        <source>Brushed aluminium, 75 %</source>
+        <translation>Aluminium brossé, 75 %</translation>
+    </message>
+    <message>
+        <source>Scatters what it reflects</source>
+        <translation>Disperse ce qu&apos;il réfléchit</translation>
+    </message>
+    <message>
+        <source>Brushed stainless steel, 58 %</source>
+        <translation>Inox brossé, 58 %</translation>
+    </message>
+    <message>
+        <source>Polished chrome, 65 %</source>
+        <translation>Chrome poli, 65 %</translation>
+    </message>
+    <message>
+        <source>Reflects like a mirror; throws caustics</source>
+        <translation>Réfléchit comme un miroir ; projette des caustiques</translation>
+    </message>
+    <message>
+        <source>Polished brass, 72 %</source>
+        <translation>Laiton poli, 72 %</translation>
+    </message>
+    <message>
+        <source>Polished copper, 68 %</source>
+        <translation>Cuivre poli, 68 %</translation>
+    </message>
+    <message>
+        <source>Mirror, 90 %</source>
+        <translation>Miroir, 90 %</translation>
+    </message>
+    <message>
+        <source>Silvered glass</source>
+        <translation>Verre argenté</translation>
+    </message>
+    <message>
+        <source>Clear glass, pane</source>
+        <translation>Verre clair, vitre</translation>
+    </message>
+    <message>
+        <source>Float glass as a thin pane: lets some 90 % through</source>
+        <translation>Verre flotté en vitre mince : laisse passer environ 90 %</translation>
+    </message>
+    <message>
+        <source>Clear glass, solid</source>
+        <translation>Verre clair, massif</translation>
+    </message>
+    <message>
+        <source>For closed bodies: bends light and throws caustics</source>
+        <translation>Pour des corps fermés : dévie la lumière et projette des caustiques</translation>
+    </message>
+    <message>
+        <source>Frosted glass, pane</source>
+        <translation>Verre dépoli, vitre</translation>
+    </message>
+    <message>
+        <source>Acid-etched: lets light through and scatters it</source>
+        <translation>Dépoli à l&apos;acide : laisse passer la lumière et la disperse</translation>
+    </message>
+    <message>
+        <source>Lamp shade</source>
+        <translation>Abat-jour</translation>
+    </message>
+    <message>
+        <source>Lamp metal</source>
+        <translation>Métal de lampe</translation>
+    </message>
+    <message>
+        <source>Wax</source>
+        <translation>Cire</translation>
+    </message>
+    <message>
+        <source>Canvas</source>
+        <translation>Toile</translation>
+    </message>
+    <message>
+        <source>Box</source>
+        <translation>Boîte</translation>
+    </message>
+    <message>
+        <source>0.5 m</source>
+        <translation>0,5 m</translation>
+    </message>
+    <message>
+        <source>Sphere</source>
+        <translation>Sphère</translation>
+    </message>
+    <message>
+        <source>0.5 m across</source>
+        <translation>0,5 m de diamètre</translation>
+    </message>
+    <message>
+        <source>Cylinder</source>
+        <translation>Cylindre</translation>
+    </message>
+    <message>
+        <source>0.5 m across, 0.75 m high</source>
+        <translation>0,5 m de diamètre, 0,75 m de haut</translation>
+    </message>
+    <message>
+        <source>Cone</source>
+        <translation>Cône</translation>
+    </message>
+    <message>
+        <source>Wall piece</source>
+        <translation>Pan de mur</translation>
+    </message>
+    <message>
+        <source>2 m long, 2.5 m high, 12 cm thick</source>
+        <translation>2 m de long, 2,5 m de haut, 12 cm d&apos;épaisseur</translation>
+    </message>
+    <message>
+        <source>Panel</source>
+        <translation>Panneau</translation>
+    </message>
+    <message>
+        <source>1 m x 2 m, 2 cm thick, lies on the surface</source>
+        <translation>1 m x 2 m, 2 cm d&apos;épaisseur, posé sur la surface</translation>
+    </message>
+    <message>
+        <source>Rug</source>
+        <translation>Tapis</translation>
+    </message>
+    <message>
+        <source>2 m x 1.4 m</source>
+        <translation>2 m x 1,4 m</translation>
+    </message>
+    <message>
+        <source>Picture</source>
+        <translation>Tableau</translation>
+    </message>
+    <message>
+        <source>60 cm x 80 cm, framed, turns with the wall</source>
+        <translation>60 cm x 80 cm, encadré, tourne avec le mur</translation>
+    </message>
+    <message>
+        <source>Wall mirror</source>
+        <translation>Miroir mural</translation>
+    </message>
+    <message>
+        <source>60 cm x 120 cm</source>
+        <translation>60 cm x 120 cm</translation>
+    </message>
+    <message>
+        <source>Pendant globe, 1000 lm, 2700 K</source>
+        <translation>Suspension globe, 1000 lm, 2700 K</translation>
+    </message>
+    <message>
+        <source>Opal glass, 24 cm, hangs 70 cm below the ceiling</source>
+        <translation>Verre opale, 24 cm, à 70 cm sous le plafond</translation>
+    </message>
+    <message>
+        <source>Pendant with shade, 800 lm, 2700 K</source>
+        <translation>Suspension à abat-jour, 800 lm, 2700 K</translation>
+    </message>
+    <message>
+        <source>Shines down over a table, 80 cm below the ceiling</source>
+        <translation>Éclaire vers le bas au-dessus d&apos;une table, à 80 cm sous le plafond</translation>
+    </message>
+    <message>
+        <source>Ceiling light, 2000 lm, 3000 K</source>
+        <translation>Plafonnier, 2000 lm, 3000 K</translation>
+    </message>
+    <message>
+        <source>Flat opal disc, 40 cm</source>
+        <translation>Disque opale plat, 40 cm</translation>
+    </message>
+    <message>
+        <source>Downlight, 700 lm, 3000 K, 60°</source>
+        <translation>Downlight, 700 lm, 3000 K, 60°</translation>
+    </message>
+    <message>
+        <source>Surface-mounted, medium beam</source>
+        <translation>En saillie, faisceau moyen</translation>
+    </message>
+    <message>
+        <source>Spot, 500 lm, 3000 K, 24°</source>
+        <translation>Spot, 500 lm, 3000 K, 24°</translation>
+    </message>
+    <message>
+        <source>Narrow beam for pictures and accents; turn it with the rotate tool</source>
+        <translation>Faisceau étroit pour tableaux et accents ; à orienter avec l&apos;outil de rotation</translation>
+    </message>
+    <message>
+        <source>Linear light, 3600 lm, 4000 K</source>
+        <translation>Réglette, 3600 lm, 4000 K</translation>
+    </message>
+    <message>
+        <source>120 cm x 6 cm office luminaire</source>
+        <translation>Luminaire de bureau de 120 cm x 6 cm</translation>
+    </message>
+    <message>
+        <source>LED panel, 3400 lm, 4000 K</source>
+        <translation>Dalle LED, 3400 lm, 4000 K</translation>
+    </message>
+    <message>
+        <source>60 cm x 60 cm</source>
+        <translation>60 cm x 60 cm</translation>
+    </message>
+    <message>
+        <source>Wall light, 600 lm, 2700 K</source>
+        <translation>Applique, 600 lm, 2700 K</translation>
+    </message>
+    <message>
+        <source>Opal half of a globe on a plate</source>
+        <translation>Demi-globe opale sur une platine</translation>
+    </message>
+    <message>
+        <source>Table lamp, 470 lm, 2700 K</source>
+        <translation>Lampe de table, 470 lm, 2700 K</translation>
+    </message>
+    <message>
+        <source>Shade of 28 cm, 45 cm high</source>
+        <translation>Abat-jour de 28 cm, 45 cm de haut</translation>
+    </message>
+    <message>
+        <source>Floor lamp, 1500 lm, 2700 K</source>
+        <translation>Lampadaire, 1500 lm, 2700 K</translation>
+    </message>
+    <message>
+        <source>1.6 m high, shade of 40 cm</source>
+        <translation>1,6 m de haut, abat-jour de 40 cm</translation>
+    </message>
+    <message>
+        <source>Uplighter, 3000 lm, 3000 K</source>
+        <translation>Lampadaire indirect, 3000 lm, 3000 K</translation>
+    </message>
+    <message>
+        <source>1.8 m high, shines to the ceiling</source>
+        <translation>1,8 m de haut, éclaire le plafond</translation>
+    </message>
+    <message>
+        <source>Candle, 13 lm, 1900 K</source>
+        <translation>Bougie, 13 lm, 1900 K</translation>
+    </message>
+    <message>
+        <source>One candela, 20 cm high</source>
+        <translation>Une candela, 20 cm de haut</translation>
+    </message>
+</context>
+<context>
+    <name>LightMeter</name>
+    <message>
+        <source>%1 lx ± %2</source>
+        <translation>%1 lx ± %2</translation>
+    </message>
+    <message>
+        <source>%1 lx</source>
+        <translation>%1 lx</translation>
+    </message>
+    <message>
+        <source>%1 cd/m²</source>
+        <translation>%1 cd/m²</translation>
+    </message>
+    <message>
+        <source>direct %1 %, diffuse %2 %, caustics %3 %</source>
+        <translation>directe %1 %, diffuse %2 %, caustiques %3 %</translation>
+    </message>
+</context>
+<context>
+    <name>LightShares</name>
+    <message>
+        <source>direct light</source>
+        <translation>lumière directe</translation>
+    </message>
+    <message>
+        <source>diffuse light</source>
+        <translation>lumière diffuse</translation>
+    </message>
+    <message>
+        <source>caustics</source>
+        <translation>caustiques</translation>
+    </message>
+    <message>
+        <source>, </source>
+        <comment>between items of a list</comment>
+        <translation>, </translation>
+    </message>
+</context>
+<context>
+    <name>MeasureTool</name>
+    <message>
+        <source>Light is measured on matt surfaces, once there is some.</source>
+        <translation>La lumière se mesure sur des surfaces mates, une fois qu&apos;il y en a.</translation>
+    </message>
+</context>
+<context>
+    <name>ProjectLock</name>
+    <message>
+        <source>another program</source>
+        <translation>un autre programme</translation>
+    </message>
+    <message>
+        <source>process %1 on %2</source>
+        <translation>le processus %1 sur %2</translation>
+    </message>
+</context>
+<context>
+    <name>QColorDialog</name>
+    <message>
+        <source>Select Color</source>
+        <translation>Choisir une couleur</translation>
+    </message>
+    <message>
+        <source>&amp;Basic colors</source>
+        <translation>Couleurs de &amp;base</translation>
+    </message>
+    <message>
+        <source>&amp;Custom colors</source>
+        <translation>&amp;Couleurs personnalisées</translation>
+    </message>
+    <message>
+        <source>&amp;Add to Custom Colors</source>
+        <translation>&amp;Ajouter aux couleurs personnalisées</translation>
+    </message>
+    <message>
+        <source>&amp;Pick Screen Color</source>
+        <translation>&amp;Prélever une couleur à l&apos;écran</translation>
+    </message>
+    <message>
+        <source>Hu&amp;e:</source>
+        <translation>&amp;Teinte :</translation>
+    </message>
+    <message>
+        <source>&amp;Sat:</source>
+        <translation>&amp;Sat. :</translation>
+    </message>
+    <message>
+        <source>&amp;Val:</source>
+        <translation>&amp;Val. :</translation>
+    </message>
+    <message>
+        <source>&amp;Red:</source>
+        <translation>&amp;Rouge :</translation>
+    </message>
+    <message>
+        <source>&amp;Green:</source>
+        <translation>&amp;Vert :</translation>
+    </message>
+    <message>
+        <source>Bl&amp;ue:</source>
+        <translation>Bl&amp;eu :</translation>
+    </message>
+    <message>
+        <source>&amp;HTML:</source>
+        <translation>&amp;HTML :</translation>
+    </message>
+</context>
+<context>
+    <name>QDialogButtonBox</name>
+    <message>
+        <source>OK</source>
+        <translation>OK</translation>
+    </message>
+</context>
+<context>
+    <name>QFileDialog</name>
+    <message>
+        <source>Look in:</source>
+        <translation>Regarder dans :</translation>
+    </message>
+    <message>
+        <source>File &amp;name:</source>
+        <translation>&amp;Nom du fichier :</translation>
+    </message>
+    <message>
+        <source>Files of type:</source>
+        <translation>Fichiers de type :</translation>
+    </message>
+    <message>
+        <source>Back</source>
+        <translation>Précédent</translation>
+    </message>
+    <message>
+        <source>Forward</source>
+        <translation>Suivant</translation>
+    </message>
+    <message>
+        <source>Parent Directory</source>
+        <translation>Dossier parent</translation>
+    </message>
+    <message>
+        <source>Create New Folder</source>
+        <translation>Créer un nouveau dossier</translation>
+    </message>
+    <message>
+        <source>List View</source>
+        <translation>Vue en liste</translation>
+    </message>
+    <message>
+        <source>Detail View</source>
+        <translation>Vue détaillée</translation>
+    </message>
+    <message>
+        <source>&amp;Open</source>
+        <translation>&amp;Ouvrir</translation>
+    </message>
+    <message>
+        <source>&amp;Save</source>
+        <translation>&amp;Enregistrer</translation>
+    </message>
+    <message>
+        <source>&amp;Choose</source>
+        <translation>&amp;Choisir</translation>
+    </message>
+    <message>
+        <source>Directory:</source>
+        <translation>Dossier :</translation>
+    </message>
+    <message>
+        <source>All Files (*)</source>
+        <translation>Tous les fichiers (*)</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>Ouvrir</translation>
+    </message>
+    <message>
+        <source>Save As</source>
+        <translation>Enregistrer sous</translation>
+    </message>
+    <message>
+        <source>&amp;Rename</source>
+        <translation>&amp;Renommer</translation>
+    </message>
+    <message>
+        <source>&amp;Delete</source>
+        <translation>&amp;Supprimer</translation>
+    </message>
+    <message>
+        <source>Show &amp;hidden files</source>
+        <translation>Afficher les fic&amp;hiers cachés</translation>
+    </message>
+    <message>
+        <source>&amp;New Folder</source>
+        <translation>&amp;Nouveau dossier</translation>
+    </message>
+    <message>
+        <source>New Folder</source>
+        <translation>Nouveau dossier</translation>
+    </message>
+    <message>
+        <source>%1 already exists.
+Do you want to replace it?</source>
+        <translation>%1 existe déjà.
+Voulez-vous le remplacer ?</translation>
+    </message>
+    <message>
+        <source>%1
+File not found.
+Please verify the correct file name was given.</source>
+        <translation>%1
+Fichier introuvable.
+Vérifiez que le nom du fichier est correct.</translation>
+    </message>
+</context>
+<context>
+    <name>QFileSystemModel</name>
+    <message>
+        <source>Name</source>
+        <translation>Nom</translation>
+    </message>
+    <message>
+        <source>Size</source>
+        <translation>Taille</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Type</translation>
+    </message>
+    <message>
+        <source>Type</source>
+        <translation>Type</translation>
+    </message>
+    <message>
+        <source>Date Modified</source>
+        <translation>Modifié le</translation>
+    </message>
+</context>
+<context>
+    <name>QMessageBox</name>
+    <message>
+        <source>Show Details...</source>
+        <translation>Afficher les détails...</translation>
+    </message>
+    <message>
+        <source>Hide Details...</source>
+        <translation>Masquer les détails...</translation>
+    </message>
+</context>
+<context>
+    <name>QObject</name>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>%1 %</source>
+        <translation>%1 %</translation>
+    </message>
+    <message>
+        <source>%1 lm</source>
+        <translation>%1 lm</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>oui</translation>
+    </message>
+    <message>
+        <source>no</source>
+        <translation>non</translation>
+    </message>
+    <message>
+        <source>%1 min %2 s</source>
+        <translation>%1 min %2 s</translation>
+    </message>
+    <message>
+        <source>%1: the picture could not be written</source>
+        <translation>%1 : l&apos;image n&apos;a pas pu être écrite</translation>
+    </message>
+    <message>
+        <source>Edit interiors with live global illumination.</source>
+        <translation>Composer des intérieurs à l&apos;illumination globale en direct.</translation>
+    </message>
+    <message>
+        <source>scene to open: .gltf, .glb or .atrium</source>
+        <translation>scène à ouvrir : .gltf, .glb ou .atrium</translation>
+    </message>
+    <message>
+        <source>open, wait for the light, save a picture of the window, quit</source>
+        <translation>ouvrir, attendre la lumière, enregistrer une image de la fenêtre, quitter</translation>
+    </message>
+    <message>
+        <source>wait at most this long for the light</source>
+        <translation>attendre la lumière au plus ce temps</translation>
+    </message>
+    <message>
+        <source>size of the window in points</source>
+        <translation>taille de la fenêtre en points</translation>
+    </message>
+    <message>
+        <source>open the sample room</source>
+        <translation>ouvrir la pièce d&apos;exemple</translation>
+    </message>
+    <message>
+        <source>select the node of this name</source>
+        <translation>sélectionner le nœud de ce nom</translation>
+    </message>
+    <message>
+        <source>bring a panel to the front: library, tree, properties, jobs, problems, caustics, convergence; none puts all away</source>
+        <translation>mettre un panneau au premier plan : library, tree, properties, jobs, problems, caustics, convergence ; none les range tous</translation>
+    </message>
+    <message>
+        <source>run a command of the menus by its name (caustic_boxes, wireframe, ...) once the file is open; may be repeated</source>
+        <translation>exécuter une commande des menus par son nom (caustic_boxes, wireframe, ...) une fois le fichier ouvert ; peut se répéter</translation>
+    </message>
+    <message>
+        <source>with --screenshot: put a measuring point at this place of the view, in shares of its width and height; may be repeated</source>
+        <translation>avec --screenshot : poser un point de mesure à cet endroit de la vue, en fractions de sa largeur et de sa hauteur ; peut se répéter</translation>
+    </message>
+</context>
+<context>
+    <name>QPlatformTheme</name>
+    <message>
+        <source>OK</source>
+        <translation>OK</translation>
+    </message>
+    <message>
+        <source>Save</source>
+        <translation>Enregistrer</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Annuler</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Fermer</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>Ne pas enregistrer</translation>
+    </message>
+    <message>
+        <source>&amp;Yes</source>
+        <translation>&amp;Oui</translation>
+    </message>
+    <message>
+        <source>&amp;No</source>
+        <translation>&amp;Non</translation>
+    </message>
+    <message>
+        <source>Apply</source>
+        <translation>Appliquer</translation>
+    </message>
+    <message>
+        <source>Reset</source>
+        <translation>Réinitialiser</translation>
+    </message>
+    <message>
+        <source>Help</source>
+        <translation>Aide</translation>
+    </message>
+    <message>
+        <source>Don&apos;t Save</source>
+        <translation>Ne pas enregistrer</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>Ouvrir</translation>
+    </message>
+    <message>
+        <source>Restore Defaults</source>
+        <translation>Valeurs par défaut</translation>
+    </message>
+    <message>
+        <source>Abort</source>
+        <translation>Abandonner</translation>
+    </message>
+    <message>
+        <source>Retry</source>
+        <translation>Réessayer</translation>
+    </message>
+    <message>
+        <source>Ignore</source>
+        <translation>Ignorer</translation>
+    </message>
+</context>
+<context>
+    <name>QWidgetTextControl</name>
+    <message>
+        <source>&amp;Undo</source>
+        <translation>&amp;Annuler</translation>
+    </message>
+    <message>
+        <source>&amp;Redo</source>
+        <translation>&amp;Rétablir</translation>
+    </message>
+    <message>
+        <source>Cu&amp;t</source>
+        <translation>Co&amp;uper</translation>
+    </message>
+    <message>
+        <source>&amp;Copy</source>
+        <translation>&amp;Copier</translation>
+    </message>
+    <message>
+        <source>&amp;Paste</source>
+        <translation>C&amp;oller</translation>
+    </message>
+    <message>
+        <source>Delete</source>
+        <translation>Supprimer</translation>
+    </message>
+    <message>
+        <source>Select All</source>
+        <translation>Tout sélectionner</translation>
+    </message>
+</context>
+<context>
+    <name>Shapes</name>
+    <message>
+        <source>Polygon</source>
+        <translation>Polygone</translation>
+    </message>
+    <message>
+        <source>Box</source>
+        <translation>Boîte</translation>
+    </message>
+    <message>
+        <source>Sphere</source>
+        <translation>Sphère</translation>
+    </message>
+    <message>
+        <source>Cylinder</source>
+        <translation>Cylindre</translation>
+    </message>
+    <message>
+        <source>Cone</source>
+        <translation>Cône</translation>
+    </message>
+    <message>
+        <source>Disc</source>
+        <translation>Disque</translation>
+    </message>
+    <message>
+        <source>Mesh</source>
+        <translation>Maillage</translation>
+    </message>
+</context>
+<context>
+    <name>Tools</name>
+    <message>
+        <source>Add %1</source>
+        <translation>Ajouter %1</translation>
+    </message>
+    <message>
+        <source>%1 is being loaded...</source>
+        <translation>Chargement de %1...</translation>
+    </message>
+    <message>
+        <source>%1 on %2</source>
+        <translation>%1 sur %2</translation>
+    </message>
+    <message>
+        <source>%1 at x %2 m, y %3 m, z %4 m</source>
+        <translation>%1 à x %2 m, y %3 m, z %4 m</translation>
+    </message>
+    <message>
+        <source>Set material %1</source>
+        <translation>Appliquer le matériau %1</translation>
+    </message>
+    <message>
+        <source>The selection is locked: unlock it to change its place</source>
+        <translation>La sélection est verrouillée : déverrouillez-la pour la déplacer</translation>
+    </message>
+    <message>
+        <source>Cancelled</source>
+        <translation>Annulé</translation>
+    </message>
+    <message>
+        <source>   flush in %1</source>
+        <translation>   affleurant en %1</translation>
+    </message>
+    <message>
+        <source>Move</source>
+        <translation>Déplacer</translation>
+    </message>
+    <message>
+        <source>Rotate</source>
+        <translation>Tourner</translation>
+    </message>
+    <message>
+        <source>Scale</source>
+        <translation>Redimensionner</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::CameraSection</name>
+    <message>
+        <source>Camera</source>
+        <translation>Caméra</translation>
+    </message>
+    <message>
+        <source>Field of view</source>
+        <translation>Champ de vision</translation>
+    </message>
+    <message>
+        <source>View height</source>
+        <translation>Hauteur de vue</translation>
+    </message>
+    <message>
+        <source> EV</source>
+        <translation> IL</translation>
+    </message>
+    <message>
+        <source>Exposure</source>
+        <translation>Exposition</translation>
+    </message>
+    <message>
+        <source>Look Through</source>
+        <translation>Regarder par elle</translation>
+    </message>
+    <message>
+        <source>Show what this camera sees</source>
+        <translation>Montrer ce que voit cette caméra</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::CausticPanel</name>
+    <message>
+        <source>Filter surfaces</source>
+        <translation>Filtrer les surfaces</translation>
+    </message>
+    <message>
+        <source>Filter surfaces by name, decision or reason</source>
+        <translation>Filtrer les surfaces par nom, décision ou raison</translation>
+    </message>
+    <message>
+        <source>Surfaces that caustics fall on</source>
+        <translation>Surfaces qui reçoivent des caustiques</translation>
+    </message>
+    <message>
+        <source>Restriction boxes</source>
+        <translation>Cadres de restriction</translation>
+    </message>
+    <message>
+        <source>u</source>
+        <translation>u</translation>
+    </message>
+    <message>
+        <source>v</source>
+        <translation>v</translation>
+    </message>
+    <message>
+        <source>Across</source>
+        <translation>En largeur</translation>
+    </message>
+    <message>
+        <source>Up</source>
+        <translation>En hauteur</translation>
+    </message>
+    <message>
+        <source>Texels</source>
+        <translation>Texels</translation>
+    </message>
+    <message>
+        <source>Choose a surface in the table.</source>
+        <translation>Choisissez une surface dans le tableau.</translation>
+    </message>
+    <message>
+        <source>Piece</source>
+        <translation>Morceau</translation>
+    </message>
+    <message>
+        <source>%1 x %2</source>
+        <translation>%1 x %2</translation>
+    </message>
+    <message>
+        <source>Particles</source>
+        <translation>Particules</translation>
+    </message>
+    <message>
+        <source>%1, contrast %2</source>
+        <translation>%1, contraste %2</translation>
+    </message>
+    <message>
+        <source>%1 (%2)</source>
+        <translation>%1 (%2)</translation>
+    </message>
+    <message>
+        <source>Kernels</source>
+        <translation>Noyaux</translation>
+    </message>
+    <message>
+        <source>Boxes</source>
+        <translation>Cadres</translation>
+    </message>
+    <message>
+        <source>%1, covering %2; %3</source>
+        <translation>%1, couvrant %2 ; %3</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Lumière</translation>
+    </message>
+    <message>
+        <source>%1 in textures, %2 on the mesh</source>
+        <translation>%1 en textures, %2 sur le maillage</translation>
+    </message>
+    <message>
+        <source>%1 to %2</source>
+        <translation>%1 à %2</translation>
+    </message>
+    <message>
+        <source>%1 m</source>
+        <translation>%1 m</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::CausticPreview</name>
+    <message>
+        <source>Picture of the caustic textures</source>
+        <translation>Image des textures de caustiques</translation>
+    </message>
+    <message>
+        <source>Wheel: zoom. Drag: shift. Double click: all boxes, then the whole piece.</source>
+        <translation>Molette : zoom. Glisser : décaler. Double clic : tous les cadres, puis le morceau entier.</translation>
+    </message>
+    <message>
+        <source>Making the picture...</source>
+        <translation>Préparation de l&apos;image...</translation>
+    </message>
+    <message>
+        <source>No texture: all of it is on the mesh</source>
+        <translation>Pas de texture : tout est sur le maillage</translation>
+    </message>
+    <message>
+        <source>%1 m, %2 m: %3 lx in textures</source>
+        <translation>%1 m, %2 m : %3 lx en textures</translation>
+    </message>
+    <message>
+        <source>1 texel = %1 pixels</source>
+        <translation>1 texel = %1 pixels</translation>
+    </message>
+    <message>
+        <source>1 pixel = %1 texels</source>
+        <translation>1 pixel = %1 texels</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::CausticSection</name>
+    <message>
+        <source>Set by hand</source>
+        <translation>Réglé à la main</translation>
+    </message>
+    <message>
+        <source>Show caustics</source>
+        <translation>Montrer les caustiques</translation>
+    </message>
+    <message>
+        <source>Automatically</source>
+        <translation>Automatiquement</translation>
+    </message>
+    <message>
+        <source>On the mesh only</source>
+        <translation>Sur le maillage seulement</translation>
+    </message>
+    <message>
+        <source>In textures</source>
+        <translation>En textures</translation>
+    </message>
+    <message>
+        <source>Texel size</source>
+        <translation>Taille des texels</translation>
+    </message>
+    <message>
+        <source>Threshold</source>
+        <translation>Seuil</translation>
+    </message>
+    <message>
+        <source>Standard deviations by which light must be more uneven than chance to get a texture</source>
+        <translation>De combien d&apos;écarts types la lumière doit être plus inégale que le hasard pour avoir une texture</translation>
+    </message>
+    <message>
+        <source>Reset to Automatic</source>
+        <translation>Revenir à l&apos;automatique</translation>
+    </message>
+    <message>
+        <source>Reset caustics to automatic</source>
+        <translation>Remettre les caustiques en automatique</translation>
+    </message>
+    <message>
+        <source>automatic (%1)</source>
+        <translation>automatique (%1)</translation>
+    </message>
+    <message>
+        <source>automatic</source>
+        <translation>automatique</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::CausticTableModel</name>
+    <message>
+        <source>%1 x %2 texels over the whole piece</source>
+        <translation>%1 x %2 texels sur tout le morceau</translation>
+    </message>
+    <message>
+        <source>Surface</source>
+        <translation>Surface</translation>
+    </message>
+    <message>
+        <source>Name of the object, with part, piece and side where there are several</source>
+        <translation>Nom de l&apos;objet, avec partie, morceau et côté s&apos;il y en a plusieurs</translation>
+    </message>
+    <message>
+        <source>Shown as</source>
+        <translation>Affiché en</translation>
+    </message>
+    <message>
+        <source>Where the caustic light is kept: in textures or on the corners of the mesh</source>
+        <translation>Où la lumière des caustiques est gardée : dans des textures ou aux sommets du maillage</translation>
+    </message>
+    <message>
+        <source>Why</source>
+        <translation>Pourquoi</translation>
+    </message>
+    <message>
+        <source>What the tests found</source>
+        <translation>Ce que les tests ont trouvé</translation>
+    </message>
+    <message>
+        <source>Particles</source>
+        <translation>Particules</translation>
+    </message>
+    <message>
+        <source>Particles that landed here</source>
+        <translation>Particules qui ont atterri ici</translation>
+    </message>
+    <message>
+        <source>Texel</source>
+        <translation>Texel</translation>
+    </message>
+    <message>
+        <source>Edge of a texel on the surface</source>
+        <translation>Côté d&apos;un texel sur la surface</translation>
+    </message>
+    <message>
+        <source>Texel follows</source>
+        <translation>Le texel suit</translation>
+    </message>
+    <message>
+        <source>What decides the size of the texels</source>
+        <translation>Ce qui décide de la taille des texels</translation>
+    </message>
+    <message>
+        <source>Kernel</source>
+        <translation>Noyau</translation>
+    </message>
+    <message>
+        <source>Width of the spot that a particle&apos;s light is spread over, across its narrow side; the median</source>
+        <translation>Largeur de la tache sur laquelle la lumière d&apos;une particule est étalée, dans son côté étroit ; la médiane</translation>
+    </message>
+    <message>
+        <source>Boxes</source>
+        <translation>Cadres</translation>
+    </message>
+    <message>
+        <source>Restriction boxes: the textures cover no more than these</source>
+        <translation>Cadres de restriction : les textures ne couvrent pas plus</translation>
+    </message>
+    <message>
+        <source>Covered</source>
+        <translation>Couvert</translation>
+    </message>
+    <message>
+        <source>Share of the piece that the boxes cover</source>
+        <translation>Part du morceau que couvrent les cadres</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>Mémoire</translation>
+    </message>
+    <message>
+        <source>Of the textures</source>
+        <translation>Des textures</translation>
+    </message>
+    <message>
+        <source>In textures</source>
+        <translation>En textures</translation>
+    </message>
+    <message>
+        <source>Light in the textures</source>
+        <translation>Lumière dans les textures</translation>
+    </message>
+    <message>
+        <source>On mesh</source>
+        <translation>Sur maillage</translation>
+    </message>
+    <message>
+        <source>Light on the corners of the mesh</source>
+        <translation>Lumière aux sommets du maillage</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::ColorButton</name>
+    <message>
+        <source>Choose a colour</source>
+        <translation>Choisir une couleur</translation>
+    </message>
+    <message>
+        <source>mixed</source>
+        <translation>mixte</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::ConvergencePanel</name>
+    <message>
+        <source>What the plot shows</source>
+        <translation>Ce que montre le tracé</translation>
+    </message>
+    <message>
+        <source>Last solution</source>
+        <translation>Dernière solution</translation>
+    </message>
+    <message>
+        <source>Whole session</source>
+        <translation>Toute la session</translation>
+    </message>
+    <message>
+        <source>The way to the present light, or all solutions and updates since the scene was opened</source>
+        <translation>Le chemin vers la lumière actuelle, ou toutes les solutions et mises à jour depuis l&apos;ouverture de la scène</translation>
+    </message>
+    <message>
+        <source>&amp;Save Plot...</source>
+        <translation>Enregistrer le &amp;tracé...</translation>
+    </message>
+    <message>
+        <source>Save the plot as PNG or SVG, or its figures as CSV</source>
+        <translation>Enregistrer le tracé en PNG ou SVG, ou ses chiffres en CSV</translation>
+    </message>
+    <message>
+        <source>Figures of the light, by the names of --stats</source>
+        <translation>Chiffres de la lumière, sous les noms de --stats</translation>
+    </message>
+    <message>
+        <source>%1 for %2, %3 %</source>
+        <translation>%1 pour %2, %3 %</translation>
+    </message>
+    <message>
+        <source>No light yet</source>
+        <translation>Pas encore de lumière</translation>
+    </message>
+    <message>
+        <source>Save Plot</source>
+        <translation>Enregistrer le tracé</translation>
+    </message>
+    <message>
+        <source>PNG picture (*.png);;SVG drawing (*.svg);;CSV table (*.csv)</source>
+        <translation>Image PNG (*.png);;Dessin SVG (*.svg);;Tableau CSV (*.csv)</translation>
+    </message>
+    <message>
+        <source>convergence.png</source>
+        <translation>convergence.png</translation>
+    </message>
+    <message>
+        <source>Written to %1.</source>
+        <translation>Écrit dans %1.</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::ConvergencePlot</name>
+    <message>
+        <source>estimate</source>
+        <translation>estimation</translation>
+    </message>
+    <message>
+        <source>Error against run time</source>
+        <translation>Erreur en fonction du temps de calcul</translation>
+    </message>
+    <message>
+        <source>run time, s</source>
+        <translation>temps de calcul, s</translation>
+    </message>
+    <message>
+        <source>error, %</source>
+        <translation>erreur, %</translation>
+    </message>
+    <message>
+        <source>updates</source>
+        <translation>mises à jour</translation>
+    </message>
+    <message>
+        <source>measured</source>
+        <translation>mesurée</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::DaylightBar</name>
+    <message>
+        <source>Nothing in this scene gives light. Until something does, it is shown in a neutral working light.</source>
+        <translation>Rien dans cette scène n&apos;éclaire. En attendant, elle est montrée sous une lumière de travail neutre.</translation>
+    </message>
+    <message>
+        <source>Add &amp;Daylight</source>
+        <translation>Ajouter la lumière du &amp;jour</translation>
+    </message>
+    <message>
+        <source>Add a sun and a uniform sky; one step to undo</source>
+        <translation>Ajouter un soleil et un ciel uniforme ; une étape à annuler</translation>
+    </message>
+    <message>
+        <source>&amp;Not Now</source>
+        <translation>&amp;Pas maintenant</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::EditController</name>
+    <message numerus="yes">
+        <source>%n object(s) copied.</source>
+        <translation>
+            <numerusform>%n objet copié.</numerusform>
+            <numerusform>%n objets copiés.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>The selection is locked: unlock it to cut it.</source>
+        <translation>La sélection est verrouillée : déverrouillez-la pour la couper.</translation>
+    </message>
+    <message>
+        <source>Cut</source>
+        <translation>Couper</translation>
+    </message>
+    <message>
+        <source>No material was copied.</source>
+        <translation>Aucun matériau n&apos;a été copié.</translation>
+    </message>
+    <message>
+        <source>No objects were copied.</source>
+        <translation>Aucun objet n&apos;a été copié.</translation>
+    </message>
+    <message>
+        <source>Paste</source>
+        <translation>Coller</translation>
+    </message>
+    <message>
+        <source>%1 copied.</source>
+        <translation>%1 copié.</translation>
+    </message>
+    <message>
+        <source>The active object has no material of its own.</source>
+        <translation>L&apos;objet actif n&apos;a pas de matériau propre.</translation>
+    </message>
+    <message>
+        <source>Paste material</source>
+        <translation>Coller le matériau</translation>
+    </message>
+    <message>
+        <source>The selection has no surface.</source>
+        <translation>La sélection n&apos;a pas de surface.</translation>
+    </message>
+    <message>
+        <source>Set material %1</source>
+        <translation>Appliquer le matériau %1</translation>
+    </message>
+    <message numerus="yes">
+        <source>%1 given to %n object(s).</source>
+        <translation>
+            <numerusform>%1 appliqué à %n objet.</numerusform>
+            <numerusform>%1 appliqué à %n objets.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Lock</source>
+        <translation>Verrouiller</translation>
+    </message>
+    <message>
+        <source>Unlock</source>
+        <translation>Déverrouiller</translation>
+    </message>
+    <message>
+        <source>Polygon</source>
+        <translation>Polygone</translation>
+    </message>
+    <message>
+        <source>Box</source>
+        <translation>Boîte</translation>
+    </message>
+    <message>
+        <source>Sphere</source>
+        <translation>Sphère</translation>
+    </message>
+    <message>
+        <source>Cylinder</source>
+        <translation>Cylindre</translation>
+    </message>
+    <message>
+        <source>Cone</source>
+        <translation>Cône</translation>
+    </message>
+    <message>
+        <source>Disc</source>
+        <translation>Disque</translation>
+    </message>
+    <message>
+        <source>Point light</source>
+        <translation>Lumière ponctuelle</translation>
+    </message>
+    <message>
+        <source>Spot light</source>
+        <translation>Projecteur</translation>
+    </message>
+    <message>
+        <source>Sun</source>
+        <translation>Soleil</translation>
+    </message>
+    <message>
+        <source>Area light</source>
+        <translation>Lumière surfacique</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Caméra</translation>
+    </message>
+    <message>
+        <source>Select an object first.</source>
+        <translation>Sélectionnez d&apos;abord un objet.</translation>
+    </message>
+    <message>
+        <source>Duplicate</source>
+        <translation>Dupliquer</translation>
+    </message>
+    <message>
+        <source>Delete</source>
+        <translation>Supprimer</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n locked object(s) kept. Unlock them in the scene tree first.</source>
+        <translation>
+            <numerusform>%n objet verrouillé gardé. Déverrouillez-le d&apos;abord dans l&apos;arbre de la scène.</numerusform>
+            <numerusform>%n objets verrouillés gardés. Déverrouillez-les d&apos;abord dans l&apos;arbre de la scène.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Hide</source>
+        <translation>Masquer</translation>
+    </message>
+    <message>
+        <source>Show all</source>
+        <translation>Tout afficher</translation>
+    </message>
+    <message>
+        <source>Group</source>
+        <translation>Grouper</translation>
+    </message>
+    <message>
+        <source>Add %1</source>
+        <translation>Ajouter %1</translation>
+    </message>
+    <message>
+        <source>Import correction</source>
+        <translation>Correction d&apos;import</translation>
+    </message>
+    <message>
+        <source>Correct units and direction</source>
+        <translation>Corriger unités et direction</translation>
+    </message>
+    <message>
+        <source>Add daylight</source>
+        <translation>Ajouter la lumière du jour</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::ExportPictureDialog</name>
+    <message>
+        <source>Export Picture</source>
+        <translation>Exporter une image</translation>
+    </message>
+    <message>
+        <source>Width</source>
+        <translation>Largeur</translation>
+    </message>
+    <message>
+        <source> px</source>
+        <translation> px</translation>
+    </message>
+    <message>
+        <source>Height</source>
+        <translation>Hauteur</translation>
+    </message>
+    <message>
+        <source>Samples per pixel side</source>
+        <translation>Échantillons par côté de pixel</translation>
+    </message>
+    <message>
+        <source>PNG is shown as in the view; EXR holds linear values in cd/m².</source>
+        <translation>Le PNG est comme dans la vue ; l&apos;EXR contient des valeurs linéaires en cd/m².</translation>
+    </message>
+    <message>
+        <source>PNG is in false colour as in the view, with its legend; EXR holds linear values in cd/m².</source>
+        <translation>Le PNG est en fausses couleurs comme dans la vue, avec sa légende ; l&apos;EXR contient des valeurs linéaires en cd/m².</translation>
+    </message>
+    <message>
+        <source>Light as in the view: only %1.</source>
+        <translation>Lumière comme dans la vue : seulement %1.</translation>
+    </message>
+    <message>
+        <source>Render...</source>
+        <translation>Calculer...</translation>
+    </message>
+    <message>
+        <source>PNG picture (*.png);;OpenEXR (*.exr)</source>
+        <translation>Image PNG (*.png);;OpenEXR (*.exr)</translation>
+    </message>
+    <message>
+        <source>Picture written to %1.</source>
+        <translation>Image écrite dans %1.</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::FalseColorBar</name>
+    <message>
+        <source>Kind of scale</source>
+        <translation>Type d&apos;échelle</translation>
+    </message>
+    <message>
+        <source>Linear</source>
+        <translation>Linéaire</translation>
+    </message>
+    <message>
+        <source>Logarithmic</source>
+        <translation>Logarithmique</translation>
+    </message>
+    <message>
+        <source>Even steps of light, or even factors: for rooms with sun and shade</source>
+        <translation>Pas égaux de lumière, ou facteurs égaux : pour des pièces avec soleil et ombre</translation>
+    </message>
+    <message>
+        <source>Automatic range</source>
+        <translation>Plage automatique</translation>
+    </message>
+    <message>
+        <source>Fit the range to the light of the scene; it stays while you move things</source>
+        <translation>Ajuster la plage à la lumière de la scène ; elle reste pendant que vous déplacez des objets</translation>
+    </message>
+    <message>
+        <source>Lower end of the range</source>
+        <translation>Bas de la plage</translation>
+    </message>
+    <message>
+        <source>Upper end of the range</source>
+        <translation>Haut de la plage</translation>
+    </message>
+    <message>
+        <source>from</source>
+        <translation>de</translation>
+    </message>
+    <message>
+        <source>to</source>
+        <translation>à</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::FileController</name>
+    <message>
+        <source>Scenes (*.atrium *.gltf *.glb);;Atrium projects (*.atrium);;glTF (*.gltf *.glb);;All files (*)</source>
+        <translation>Scènes (*.atrium *.gltf *.glb);;Projets Atrium (*.atrium);;glTF (*.gltf *.glb);;Tous les fichiers (*)</translation>
+    </message>
+    <message>
+        <source>File: %1</source>
+        <translation>Fichier : %1</translation>
+    </message>
+    <message>
+        <source>Place: %1</source>
+        <translation>Endroit : %1</translation>
+    </message>
+    <message>
+        <source>Untitled</source>
+        <translation>Sans titre</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>Ouvrir</translation>
+    </message>
+    <message>
+        <source>Open elsewhere</source>
+        <translation>Ouvert ailleurs</translation>
+    </message>
+    <message>
+        <source>%1 is open in another Atrium.</source>
+        <translation>%1 est ouvert dans un autre Atrium.</translation>
+    </message>
+    <message>
+        <source>It is held by %1. If both save, the one that saves last is asked what to do.</source>
+        <translation>Il est tenu par %1. Si les deux enregistrent, le dernier se verra demander que faire.</translation>
+    </message>
+    <message>
+        <source>Open Read-Only</source>
+        <translation>Ouvrir en lecture seule</translation>
+    </message>
+    <message>
+        <source>Open Anyway</source>
+        <translation>Ouvrir quand même</translation>
+    </message>
+    <message>
+        <source>Opening %1</source>
+        <translation>Ouverture de %1</translation>
+    </message>
+    <message>
+        <source>%1 could not be opened</source>
+        <translation>%1 n&apos;a pas pu être ouvert</translation>
+    </message>
+    <message>
+        <source>Damaged file</source>
+        <translation>Fichier endommagé</translation>
+    </message>
+    <message>
+        <source>%1 is damaged.</source>
+        <translation>%1 est endommagé.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n object(s) can be saved from it. The file itself is left as it is.</source>
+        <translation>
+            <numerusform>%n objet peut en être sauvé. Le fichier lui-même reste tel quel.</numerusform>
+            <numerusform>%n objets peuvent en être sauvés. Le fichier lui-même reste tel quel.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Open What Is Left</source>
+        <translation>Ouvrir ce qui reste</translation>
+    </message>
+    <message>
+        <source>Opening was cancelled.</source>
+        <translation>L&apos;ouverture a été annulée.</translation>
+    </message>
+    <message>
+        <source>Import</source>
+        <translation>Importer</translation>
+    </message>
+    <message>
+        <source>Importing %1</source>
+        <translation>Import de %1</translation>
+    </message>
+    <message>
+        <source>%1 could not be imported</source>
+        <translation>%1 n&apos;a pas pu être importé</translation>
+    </message>
+    <message>
+        <source>Import %1</source>
+        <translation>Importer %1</translation>
+    </message>
+    <message>
+        <source>Imported %1 objects.</source>
+        <translation>%1 objets importés.</translation>
+    </message>
+    <message>
+        <source>No image of this scene is missing.</source>
+        <translation>Aucune image ne manque à cette scène.</translation>
+    </message>
+    <message>
+        <source>Folder with the Images</source>
+        <translation>Dossier des images</translation>
+    </message>
+    <message>
+        <source>Looking for images</source>
+        <translation>Recherche des images</translation>
+    </message>
+    <message>
+        <source>The images could not be looked for</source>
+        <translation>Les images n&apos;ont pas pu être cherchées</translation>
+    </message>
+    <message>
+        <source>Find Missing Images</source>
+        <translation>Chercher les images manquantes</translation>
+    </message>
+    <message>
+        <source>The images could not be used</source>
+        <translation>Les images n&apos;ont pas pu être utilisées</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n image(s) found; none is missing.</source>
+        <translation>
+            <numerusform>%n image trouvée ; il n&apos;en manque aucune.</numerusform>
+            <numerusform>%n images trouvées ; il n&apos;en manque aucune.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n image(s) found.</source>
+        <translation>
+            <numerusform>%n image trouvée.</numerusform>
+            <numerusform>%n images trouvées.</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n image(s) still missing.</source>
+        <translation>
+            <numerusform>Il manque encore %n image.</numerusform>
+            <numerusform>Il manque encore %n images.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>There is no recovered work.</source>
+        <translation>Il n&apos;y a pas de travail récupéré.</translation>
+    </message>
+    <message>
+        <source>There is no saved file to go back to.</source>
+        <translation>Il n&apos;y a pas de fichier enregistré auquel revenir.</translation>
+    </message>
+    <message>
+        <source>Revert</source>
+        <translation>Revenir</translation>
+    </message>
+    <message>
+        <source>Go back to %1 as it was saved?</source>
+        <translation>Revenir à %1 tel qu&apos;il a été enregistré ?</translation>
+    </message>
+    <message>
+        <source>It was saved on %1. What was changed since can be had back for two weeks: File &gt; Recovered Work.</source>
+        <translation>Il a été enregistré le %1. Ce qui a changé depuis peut être repris pendant deux semaines : Fichier &gt; Travail récupéré.</translation>
+    </message>
+    <message>
+        <source>what would be lost could not be put aside first</source>
+        <translation>ce qui serait perdu n&apos;a pas pu être mis de côté d&apos;abord</translation>
+    </message>
+    <message>
+        <source>Save the scene under another name, then open the file again.</source>
+        <translation>Enregistrez la scène sous un autre nom, puis rouvrez le fichier.</translation>
+    </message>
+    <message>
+        <source>Nothing was reverted</source>
+        <translation>Rien n&apos;a été abandonné</translation>
+    </message>
+    <message>
+        <source>%1 copy</source>
+        <comment>suggested file name</comment>
+        <translation>%1 copie</translation>
+    </message>
+    <message>
+        <source>Save Project</source>
+        <translation>Enregistrer le projet</translation>
+    </message>
+    <message>
+        <source>Atrium projects (*.atrium)</source>
+        <translation>Projets Atrium (*.atrium)</translation>
+    </message>
+    <message>
+        <source>Export glTF</source>
+        <translation>Exporter en glTF</translation>
+    </message>
+    <message>
+        <source>glTF binary (*.glb);;glTF (*.gltf)</source>
+        <translation>glTF binaire (*.glb);;glTF (*.gltf)</translation>
+    </message>
+    <message>
+        <source>Changed by another program</source>
+        <translation>Modifié par un autre programme</translation>
+    </message>
+    <message>
+        <source>%1 has been changed since it was opened here.</source>
+        <translation>%1 a été modifié depuis son ouverture ici.</translation>
+    </message>
+    <message>
+        <source>It was written on %1. Overwriting it loses what was changed there.</source>
+        <translation>Il a été écrit le %1. L&apos;écraser perdrait ce qui y a changé.</translation>
+    </message>
+    <message>
+        <source>Save Under Another Name...</source>
+        <translation>Enregistrer sous un autre nom...</translation>
+    </message>
+    <message>
+        <source>Overwrite</source>
+        <translation>Écraser</translation>
+    </message>
+    <message>
+        <source>%1 could not be saved</source>
+        <translation>%1 n&apos;a pas pu être enregistré</translation>
+    </message>
+    <message>
+        <source>Your changes are still here.</source>
+        <translation>Vos modifications sont toujours là.</translation>
+    </message>
+    <message>
+        <source>Try Again</source>
+        <translation>Réessayer</translation>
+    </message>
+    <message>
+        <source>Still saving; try again in a moment.</source>
+        <translation>Enregistrement en cours ; réessayez dans un instant.</translation>
+    </message>
+    <message>
+        <source>it is open in another Atrium (%1)</source>
+        <translation>il est ouvert dans un autre Atrium (%1)</translation>
+    </message>
+    <message>
+        <source>Saving %1</source>
+        <translation>Enregistrement de %1</translation>
+    </message>
+    <message>
+        <source>%1 was gone and has been written again.</source>
+        <translation>%1 avait disparu et a été réécrit.</translation>
+    </message>
+    <message>
+        <source>Saved %1.</source>
+        <translation>%1 enregistré.</translation>
+    </message>
+    <message>
+        <source>Exported %1.</source>
+        <translation>%1 exporté.</translation>
+    </message>
+    <message>
+        <source>Unsaved changes</source>
+        <translation>Modifications non enregistrées</translation>
+    </message>
+    <message>
+        <source>Save the changes to %1?</source>
+        <translation>Enregistrer les modifications de %1 ?</translation>
+    </message>
+    <message>
+        <source>What is discarded can be had back for two weeks: File &gt; Recovered Work.</source>
+        <translation>Ce qui n&apos;est pas enregistré peut être repris pendant deux semaines : Fichier &gt; Travail récupéré.</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::ImportBar</name>
+    <message>
+        <source>units of %1 m</source>
+        <translation>unités de %1 m</translation>
+    </message>
+    <message>
+        <source>&amp;Fix</source>
+        <translation>&amp;Corriger</translation>
+    </message>
+    <message>
+        <source>Put everything into a group that corrects this; one step to undo</source>
+        <translation>Tout mettre dans un groupe qui corrige cela ; une étape à annuler</translation>
+    </message>
+    <message>
+        <source>&amp;Keep</source>
+        <translation>&amp;Garder</translation>
+    </message>
+    <message>
+        <source>Leave the file as it is</source>
+        <translation>Laisser le fichier tel quel</translation>
+    </message>
+    <message>
+        <source>This file looks like %1, with +Z up.</source>
+        <translation>Ce fichier semble être en %1, avec +Z vers le haut.</translation>
+    </message>
+    <message>
+        <source>This file looks like +Z is up in it.</source>
+        <translation>Dans ce fichier, +Z semble être vers le haut.</translation>
+    </message>
+    <message>
+        <source>This file looks like %1.</source>
+        <translation>Ce fichier semble être en %1.</translation>
+    </message>
+    <message>
+        <source>millimetres</source>
+        <translation>millimètres</translation>
+    </message>
+    <message>
+        <source>centimetres</source>
+        <translation>centimètres</translation>
+    </message>
+    <message>
+        <source>inches</source>
+        <translation>pouces</translation>
+    </message>
+    <message>
+        <source>feet</source>
+        <translation>pieds</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::JobsPanel</name>
+    <message>
+        <source>Solving %1 %</source>
+        <translation>Calcul %1 %</translation>
+    </message>
+    <message>
+        <source>Light follows</source>
+        <translation>La lumière suit</translation>
+    </message>
+    <message>
+        <source>Settling %1 %</source>
+        <translation>Stabilisation %1 %</translation>
+    </message>
+    <message>
+        <source>Settled, refining %1 %</source>
+        <translation>Stabilisé, affinage %1 %</translation>
+    </message>
+    <message>
+        <source>Light up to date</source>
+        <translation>Lumière à jour</translation>
+    </message>
+    <message>
+        <source>Light out of date</source>
+        <translation>Lumière périmée</translation>
+    </message>
+    <message>
+        <source>Light stopped</source>
+        <translation>Lumière arrêtée</translation>
+    </message>
+    <message>
+        <source>Light failed</source>
+        <translation>Échec de la lumière</translation>
+    </message>
+    <message>
+        <source>No light yet</source>
+        <translation>Pas encore de lumière</translation>
+    </message>
+    <message>
+        <source>Progress of the light</source>
+        <translation>Avancement de la lumière</translation>
+    </message>
+    <message>
+        <source>Figures of the solution</source>
+        <translation>Chiffres de la solution</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Arrêter</translation>
+    </message>
+    <message>
+        <source>Resume</source>
+        <translation>Reprendre</translation>
+    </message>
+    <message>
+        <source> (the picture is older)</source>
+        <translation> (l&apos;image est plus ancienne)</translation>
+    </message>
+    <message>
+        <source>, about %1 left</source>
+        <translation>, encore %1 environ</translation>
+    </message>
+    <message>
+        <source>No solution yet</source>
+        <translation>Pas encore de solution</translation>
+    </message>
+    <message>
+        <source>Error</source>
+        <translation>Erreur</translation>
+    </message>
+    <message>
+        <source>%1 (%2 to %3)</source>
+        <translation>%1 (%2 à %3)</translation>
+    </message>
+    <message>
+        <source>Root mean square over all surfaces, measured at %L1 places against brute force; it lies between the bounds 95 times in 100.</source>
+        <translation>Moyenne quadratique sur toutes les surfaces, mesurée en %L1 endroits contre la force brute ; elle est entre les bornes 95 fois sur 100.</translation>
+    </message>
+    <message>
+        <source>Error of the mean</source>
+        <translation>Erreur de la moyenne</translation>
+    </message>
+    <message>
+        <source>%1%2</source>
+        <translation>%1%2</translation>
+    </message>
+    <message>
+        <source>−</source>
+        <translation>−</translation>
+    </message>
+    <message>
+        <source>+</source>
+        <translation>+</translation>
+    </message>
+    <message>
+        <source>not measured yet</source>
+        <translation>pas encore mesurée</translation>
+    </message>
+    <message>
+        <source>Solved in</source>
+        <translation>Calculé en</translation>
+    </message>
+    <message>
+        <source>Iterations</source>
+        <translation>Itérations</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>converged</source>
+        <translation>convergé</translation>
+    </message>
+    <message>
+        <source>not converged</source>
+        <translation>non convergé</translation>
+    </message>
+    <message>
+        <source>Elements</source>
+        <translation>Éléments</translation>
+    </message>
+    <message>
+        <source>Links</source>
+        <translation>Liens</translation>
+    </message>
+    <message>
+        <source>Rays</source>
+        <translation>Rayons</translation>
+    </message>
+    <message>
+        <source>Light emitted</source>
+        <translation>Lumière émise</translation>
+    </message>
+    <message>
+        <source>%1 lm</source>
+        <translation>%1 lm</translation>
+    </message>
+    <message>
+        <source>Memory</source>
+        <translation>Mémoire</translation>
+    </message>
+    <message>
+        <source>Phases</source>
+        <translation>Phases</translation>
+    </message>
+    <message>
+        <source>Left out</source>
+        <translation>Laissé de côté</translation>
+    </message>
+    <message>
+        <source>In use</source>
+        <translation>Utilisé</translation>
+    </message>
+    <message>
+        <source>Preparing rays</source>
+        <translation>Préparation des rayons</translation>
+    </message>
+    <message>
+        <source>Unrolling surfaces</source>
+        <translation>Dépliage des surfaces</translation>
+    </message>
+    <message>
+        <source>Finding shadows</source>
+        <translation>Recherche des ombres</translation>
+    </message>
+    <message>
+        <source>Looking closer</source>
+        <translation>Examen plus fin</translation>
+    </message>
+    <message>
+        <source>Dividing surfaces</source>
+        <translation>Division des surfaces</translation>
+    </message>
+    <message>
+        <source>Finding what sees what</source>
+        <translation>Recherche de ce qui se voit</translation>
+    </message>
+    <message>
+        <source>Tracing visibility</source>
+        <translation>Tracé de la visibilité</translation>
+    </message>
+    <message>
+        <source>Gathering light</source>
+        <translation>Collecte de la lumière</translation>
+    </message>
+    <message>
+        <source>Painting light onto surfaces</source>
+        <translation>Report de la lumière sur les surfaces</translation>
+    </message>
+    <message>
+        <source>Measuring the error</source>
+        <translation>Mesure de l&apos;erreur</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::LibraryModel</name>
+    <message>
+        <source>There are no glTF files in %1.</source>
+        <translation>Il n&apos;y a pas de fichier glTF dans %1.</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::LibraryPanel</name>
+    <message>
+        <source>Search the library</source>
+        <translation>Chercher dans la bibliothèque</translation>
+    </message>
+    <message>
+        <source>Search the library by name</source>
+        <translation>Chercher par nom dans la bibliothèque</translation>
+    </message>
+    <message>
+        <source>Sections of the library</source>
+        <translation>Rubriques de la bibliothèque</translation>
+    </message>
+    <message>
+        <source>Shapes</source>
+        <translation>Formes</translation>
+    </message>
+    <message>
+        <source>Materials</source>
+        <translation>Matériaux</translation>
+    </message>
+    <message>
+        <source>Lamps</source>
+        <translation>Lampes</translation>
+    </message>
+    <message>
+        <source>Furniture</source>
+        <translation>Meubles</translation>
+    </message>
+    <message>
+        <source>Library</source>
+        <translation>Bibliothèque</translation>
+    </message>
+    <message>
+        <source>Choose &amp;Folder...</source>
+        <translation>Choisir un &amp;dossier...</translation>
+    </message>
+    <message>
+        <source>Choose the folder with your glTF models</source>
+        <translation>Choisir le dossier de vos modèles glTF</translation>
+    </message>
+    <message>
+        <source>Nothing in the library has this name.</source>
+        <translation>Rien dans la bibliothèque ne porte ce nom.</translation>
+    </message>
+    <message>
+        <source>Choose a folder with glTF models (.glb, .gltf): they appear here, ready to be dragged into the room.</source>
+        <translation>Choisissez un dossier de modèles glTF (.glb, .gltf) : ils apparaissent ici, prêts à être glissés dans la pièce.</translation>
+    </message>
+    <message>
+        <source>%1 is being loaded...</source>
+        <translation>Chargement de %1...</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::LightBadge</name>
+    <message>
+        <source>, typical error %1</source>
+        <translation>, erreur typique %1</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::LightSection</name>
+    <message>
+        <source>Lamp</source>
+        <translation>Lampe</translation>
+    </message>
+    <message>
+        <source>Switched on</source>
+        <translation>Allumée</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Type</translation>
+    </message>
+    <message>
+        <source>Point</source>
+        <translation>Ponctuelle</translation>
+    </message>
+    <message>
+        <source>Spot</source>
+        <translation>Projecteur</translation>
+    </message>
+    <message>
+        <source>Sun</source>
+        <translation>Soleil</translation>
+    </message>
+    <message>
+        <source>Colour</source>
+        <translation>Couleur</translation>
+    </message>
+    <message>
+        <source>Intensity</source>
+        <translation>Intensité</translation>
+    </message>
+    <message>
+        <source>Flux</source>
+        <translation>Flux</translation>
+    </message>
+    <message>
+        <source>Dimming</source>
+        <translation>Gradation</translation>
+    </message>
+    <message>
+        <source>Remove photometry</source>
+        <translation>Retirer la photométrie</translation>
+    </message>
+    <message>
+        <source>Photometry</source>
+        <translation>Photométrie</translation>
+    </message>
+    <message>
+        <source>Beam angle</source>
+        <translation>Angle du faisceau</translation>
+    </message>
+    <message>
+        <source>Outer angle</source>
+        <translation>Angle extérieur</translation>
+    </message>
+    <message>
+        <source>Angular diameter</source>
+        <translation>Diamètre angulaire</translation>
+    </message>
+    <message>
+        <source> lx</source>
+        <translation> lx</translation>
+    </message>
+    <message>
+        <source> cd</source>
+        <translation> cd</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::MainWindow</name>
+    <message>
+        <source>Untitled</source>
+        <translation>Sans titre</translation>
+    </message>
+    <message>
+        <source>%1[*] (read-only) - Atrium</source>
+        <translation>%1[*] (lecture seule) - Atrium</translation>
+    </message>
+    <message>
+        <source>%1[*] - Atrium</source>
+        <translation>%1[*] - Atrium</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1 : %2</translation>
+    </message>
+    <message>
+        <source>&amp;Undo</source>
+        <translation>&amp;Annuler</translation>
+    </message>
+    <message>
+        <source>&amp;Redo</source>
+        <translation>&amp;Rétablir</translation>
+    </message>
+    <message>
+        <source>Scene</source>
+        <translation>Scène</translation>
+    </message>
+    <message>
+        <source>Properties</source>
+        <translation>Propriétés</translation>
+    </message>
+    <message>
+        <source>Problems</source>
+        <translation>Problèmes</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Lumière</translation>
+    </message>
+    <message>
+        <source>Caustics</source>
+        <translation>Caustiques</translation>
+    </message>
+    <message>
+        <source>Convergence</source>
+        <translation>Convergence</translation>
+    </message>
+    <message>
+        <source>Problems (%1)</source>
+        <translation>Problèmes (%1)</translation>
+    </message>
+    <message>
+        <source>%1 cm</source>
+        <translation>%1 cm</translation>
+    </message>
+    <message>
+        <source>%1 m</source>
+        <translation>%1 m</translation>
+    </message>
+    <message>
+        <source>Library</source>
+        <translation>Bibliothèque</translation>
+    </message>
+    <message>
+        <source>Folder with Furniture</source>
+        <translation>Dossier de meubles</translation>
+    </message>
+    <message>
+        <source>Snap %1, %2</source>
+        <translation>Pas %1, %2</translation>
+    </message>
+    <message>
+        <source>Slide and turn</source>
+        <translation>Glisser et tourner</translation>
+    </message>
+    <message>
+        <source>Slide</source>
+        <translation>Glisser</translation>
+    </message>
+    <message>
+        <source>How drags snap: Edit &gt; Snapping. Click to change it.</source>
+        <translation>Comment les gestes s&apos;alignent : Édition &gt; Magnétisme. Cliquer pour le changer.</translation>
+    </message>
+    <message>
+        <source>Snapping</source>
+        <translation>Magnétisme</translation>
+    </message>
+    <message>
+        <source>Grid step</source>
+        <translation>Pas de la grille</translation>
+    </message>
+    <message>
+        <source>Angle step</source>
+        <translation>Pas des angles</translation>
+    </message>
+    <message>
+        <source>View of %1</source>
+        <translation>Vue de %1</translation>
+    </message>
+    <message>
+        <source>The scene has no camera. Add one from the present view: Add &gt; Camera.</source>
+        <translation>La scène n&apos;a pas de caméra. Ajoutez-en une depuis la vue actuelle : Ajout &gt; Caméra.</translation>
+    </message>
+    <message>
+        <source>Save &amp;As...</source>
+        <translation>Enregistrer &amp;sous...</translation>
+    </message>
+    <message>
+        <source>Try A&amp;gain</source>
+        <translation>&amp;Réessayer</translation>
+    </message>
+    <message>
+        <source>Autosave failed; what is unsaved is in this window only. %1</source>
+        <translation>La sauvegarde automatique a échoué ; ce qui n&apos;est pas enregistré n&apos;est que dans cette fenêtre. %1</translation>
+    </message>
+    <message>
+        <source>&amp;Find...</source>
+        <translation>&amp;Chercher...</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n image(s) of this scene were not found; surfaces that use them show their plain colour.</source>
+        <translation>
+            <numerusform>%n image de cette scène n&apos;a pas été trouvée ; les surfaces qui l&apos;utilisent montrent leur couleur unie.</numerusform>
+            <numerusform>%n images de cette scène n&apos;ont pas été trouvées ; les surfaces qui les utilisent montrent leur couleur unie.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>There is no light to render yet.</source>
+        <translation>Il n&apos;y a pas encore de lumière à calculer.</translation>
+    </message>
+    <message>
+        <source>Drop the file onto a lamp in the view, or where a new lamp is to hang.</source>
+        <translation>Déposez le fichier sur une lampe dans la vue, ou là où une nouvelle lampe doit être suspendue.</translation>
+    </message>
+    <message>
+        <source>&amp;File</source>
+        <translation>&amp;Fichier</translation>
+    </message>
+    <message>
+        <source>Open &amp;Recent</source>
+        <translation>Fichiers &amp;récents</translation>
+    </message>
+    <message>
+        <source>&amp;Edit</source>
+        <translation>É&amp;dition</translation>
+    </message>
+    <message>
+        <source>Sna&amp;pping</source>
+        <translation>Ma&amp;gnétisme</translation>
+    </message>
+    <message>
+        <source>&amp;Add</source>
+        <translation>&amp;Ajout</translation>
+    </message>
+    <message>
+        <source>&amp;View</source>
+        <translation>Affic&amp;hage</translation>
+    </message>
+    <message>
+        <source>Ca&amp;ustics Shown As</source>
+        <translation>Affichage des causti&amp;ques</translation>
+    </message>
+    <message>
+        <source>Ca&amp;meras</source>
+        <translation>Ca&amp;méras</translation>
+    </message>
+    <message>
+        <source>&amp;Panels</source>
+        <translation>&amp;Panneaux</translation>
+    </message>
+    <message>
+        <source>&amp;Light</source>
+        <translation>&amp;Lumière</translation>
+    </message>
+    <message>
+        <source>&amp;Help</source>
+        <translation>A&amp;ide</translation>
+    </message>
+    <message>
+        <source>Tools</source>
+        <translation>Outils</translation>
+    </message>
+    <message>
+        <source>File progress</source>
+        <translation>Avancement du fichier</translation>
+    </message>
+    <message>
+        <source>Cancel opening</source>
+        <translation>Annuler l&apos;ouverture</translation>
+    </message>
+    <message>
+        <source>Show the problems of this scene</source>
+        <translation>Montrer les problèmes de cette scène</translation>
+    </message>
+    <message>
+        <source>Number of problems</source>
+        <translation>Nombre de problèmes</translation>
+    </message>
+    <message>
+        <source>Exposure %1%2 EV</source>
+        <translation>Exposition %1%2 IL</translation>
+    </message>
+    <message>
+        <source>Select an object to see the particles that landed on it.</source>
+        <translation>Sélectionnez un objet pour voir les particules qui l&apos;ont touché.</translation>
+    </message>
+    <message>
+        <source>All light is shown.</source>
+        <translation>Toute la lumière est affichée.</translation>
+    </message>
+    <message>
+        <source>Shown: only %1.</source>
+        <translation>Affiché : seulement %1.</translation>
+    </message>
+    <message>
+        <source>There are no measuring points yet: choose Measure Light and click on a surface.</source>
+        <translation>Il n&apos;y a pas encore de point de mesure : choisissez Mesurer la lumière et cliquez sur une surface.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n measuring point(s) copied.</source>
+        <translation>
+            <numerusform>%n point de mesure copié.</numerusform>
+            <numerusform>%n points de mesure copiés.</numerusform>
+        </translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::MaterialSection</name>
+    <message>
+        <source>(unnamed material)</source>
+        <translation>(matériau sans nom)</translation>
+    </message>
+    <message>
+        <source>Material</source>
+        <translation>Matériau</translation>
+    </message>
+    <message>
+        <source>Part</source>
+        <translation>Partie</translation>
+    </message>
+    <message>
+        <source>Give the selected objects another material of this scene</source>
+        <translation>Donner aux objets sélectionnés un autre matériau de cette scène</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nom</translation>
+    </message>
+    <message>
+        <source>Rename material</source>
+        <translation>Renommer le matériau</translation>
+    </message>
+    <message>
+        <source>Make Unique</source>
+        <translation>Rendre unique</translation>
+    </message>
+    <message>
+        <source>Give this part a material of its own, so that changes do not reach other objects</source>
+        <translation>Donner à cette partie un matériau à elle, pour que les changements n&apos;atteignent pas d&apos;autres objets</translation>
+    </message>
+    <message>
+        <source>Base colour</source>
+        <translation>Couleur de base</translation>
+    </message>
+    <message>
+        <source> %</source>
+        <translation> %</translation>
+    </message>
+    <message>
+        <source>Reflectance</source>
+        <translation>Réflectance</translation>
+    </message>
+    <message>
+        <source>Metallic</source>
+        <translation>Métallique</translation>
+    </message>
+    <message>
+        <source>Roughness</source>
+        <translation>Rugosité</translation>
+    </message>
+    <message>
+        <source>Transmission</source>
+        <translation>Transmission</translation>
+    </message>
+    <message>
+        <source>Refractive index</source>
+        <translation>Indice de réfraction</translation>
+    </message>
+    <message>
+        <source>Double sided</source>
+        <translation>Double face</translation>
+    </message>
+    <message>
+        <source>Light colour</source>
+        <translation>Couleur de la lumière</translation>
+    </message>
+    <message>
+        <source> cd/m²</source>
+        <translation> cd/m²</translation>
+    </message>
+    <message>
+        <source>Luminance</source>
+        <translation>Luminance</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1 : %2</translation>
+    </message>
+    <message>
+        <source>default</source>
+        <translation>par défaut</translation>
+    </message>
+    <message>
+        <source>Default</source>
+        <translation>Par défaut</translation>
+    </message>
+    <message>
+        <source>mixed</source>
+        <translation>mixte</translation>
+    </message>
+    <message>
+        <source>No material of its own: white, reflectance 80 %.</source>
+        <translation>Pas de matériau propre : blanc, réflectance 80 %.</translation>
+    </message>
+    <message>
+        <source>Shared by %1 parts; changes reach all of them.</source>
+        <translation>Partagé par %1 parties ; les changements les atteignent toutes.</translation>
+    </message>
+    <message>
+        <source>%1 materials are changed together.</source>
+        <translation>%1 matériaux sont changés ensemble.</translation>
+    </message>
+    <message>
+        <source>Assign material</source>
+        <translation>Appliquer le matériau</translation>
+    </message>
+    <message>
+        <source>Make material unique</source>
+        <translation>Rendre le matériau unique</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::NodeSection</name>
+    <message>
+        <source>Object</source>
+        <translation>Objet</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Nom</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>Renommer</translation>
+    </message>
+    <message>
+        <source>Visible</source>
+        <translation>Visible</translation>
+    </message>
+    <message>
+        <source>Locked</source>
+        <translation>Verrouillé</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n objects selected</source>
+        <translation>
+            <numerusform>%n objet sélectionné</numerusform>
+            <numerusform>%n objets sélectionnés</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>(unnamed)</source>
+        <translation>(sans nom)</translation>
+    </message>
+    <message>
+        <source>mixed</source>
+        <translation>mixte</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::NoticeBar</name>
+    <message>
+        <source>Put this message away</source>
+        <translation>Ranger ce message</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::NumberField</name>
+    <message>
+        <source>mixed</source>
+        <translation>mixte</translation>
+    </message>
+    <message>
+        <source>Not changed: %1.</source>
+        <translation>Non changé : %1.</translation>
+    </message>
+    <message>
+        <source>Not changed: the value must lie between %1 and %2.</source>
+        <translation>Non changé : la valeur doit être entre %1 et %2.</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::PhotometryBox</name>
+    <message>
+        <source>beam %1°</source>
+        <translation>faisceau %1°</translation>
+    </message>
+    <message>
+        <source>beam %1° × %2°</source>
+        <translation>faisceau %1° × %2°</translation>
+    </message>
+    <message>
+        <source>%1 lm</source>
+        <translation>%1 lm</translation>
+    </message>
+    <message>
+        <source>%1 W</source>
+        <translation>%1 W</translation>
+    </message>
+    <message>
+        <source>, </source>
+        <translation>, </translation>
+    </message>
+    <message>
+        <source>Choose IES File...</source>
+        <translation>Choisir un fichier IES...</translation>
+    </message>
+    <message>
+        <source>Let the lamp shine as its maker measured it. An IES file can also be dropped onto a lamp</source>
+        <translation>Faire éclairer la lampe comme son fabricant l&apos;a mesurée. Un fichier IES peut aussi être déposé sur une lampe</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Retirer</translation>
+    </message>
+    <message>
+        <source>Shine without a file, with the same flux</source>
+        <translation>Éclairer sans fichier, avec le même flux</translation>
+    </message>
+    <message>
+        <source>Different files</source>
+        <translation>Fichiers différents</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::PhotometryController</name>
+    <message>
+        <source>Choose Photometric File</source>
+        <translation>Choisir un fichier photométrique</translation>
+    </message>
+    <message>
+        <source>Add Luminaire</source>
+        <translation>Ajouter un luminaire</translation>
+    </message>
+    <message>
+        <source>Photometric files (*.ies *.IES *.ldt *.LDT);;All files (*)</source>
+        <translation>Fichiers photométriques (*.ies *.IES *.ldt *.LDT);;Tous les fichiers (*)</translation>
+    </message>
+    <message>
+        <source>Set photometry</source>
+        <translation>Appliquer la photométrie</translation>
+    </message>
+    <message>
+        <source>Lamp</source>
+        <translation>Lampe</translation>
+    </message>
+    <message>
+        <source>Add lamp</source>
+        <translation>Ajouter une lampe</translation>
+    </message>
+    <message>
+        <source>Photometric File</source>
+        <translation>Fichier photométrique</translation>
+    </message>
+    <message>
+        <source>%1 cannot be used.</source>
+        <translation>%1 ne peut pas être utilisé.</translation>
+    </message>
+    <message>
+        <source>Let go of the object first.</source>
+        <translation>Lâchez d&apos;abord l&apos;objet.</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1 : %2</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::PlacementSection</name>
+    <message>
+        <source>Placement</source>
+        <translation>Placement</translation>
+    </message>
+    <message>
+        <source>Position</source>
+        <translation>Position</translation>
+    </message>
+    <message>
+        <source>Rotation</source>
+        <translation>Rotation</translation>
+    </message>
+    <message>
+        <source>Scale</source>
+        <translation>Échelle</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::PolarDiagram</name>
+    <message>
+        <source>Polar diagram</source>
+        <translation>Diagramme polaire</translation>
+    </message>
+    <message>
+        <source>Luminous intensity over directions; straight down is at the bottom</source>
+        <translation>Intensité lumineuse selon la direction ; le bas est vers le bas</translation>
+    </message>
+    <message>
+        <source>ring %1 cd</source>
+        <translation>cercle %1 cd</translation>
+    </message>
+    <message>
+        <source>all planes</source>
+        <translation>tous les plans</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::PreferencesDialog</name>
+    <message>
+        <source>Preferences</source>
+        <translation>Préférences</translation>
+    </message>
+    <message>
+        <source>As the system (%1)</source>
+        <translation>Comme le système (%1)</translation>
+    </message>
+    <message>
+        <source>&amp;Language:</source>
+        <translation>&amp;Langue :</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n second(s) after a change</source>
+        <translation>
+            <numerusform>%n seconde après un changement</numerusform>
+            <numerusform>%n secondes après un changement</numerusform>
+        </translation>
+    </message>
+    <message numerus="yes">
+        <source>%n minute(s) after a change</source>
+        <translation>
+            <numerusform>%n minute après un changement</numerusform>
+            <numerusform>%n minutes après un changement</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Keep &amp;unsaved work:</source>
+        <translation>Garder le travail &amp;non enregistré :</translation>
+    </message>
+    <message>
+        <source>Another language shows when Atrium is started again.</source>
+        <translation>Une autre langue s&apos;affiche au prochain démarrage d&apos;Atrium.</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::ProblemsPanel</name>
+    <message>
+        <source>Problems</source>
+        <translation>Problèmes</translation>
+    </message>
+    <message>
+        <source>Where</source>
+        <translation>Où</translation>
+    </message>
+    <message>
+        <source>What, and what to do</source>
+        <translation>Quoi, et que faire</translation>
+    </message>
+    <message>
+        <source>No problems found</source>
+        <translation>Aucun problème trouvé</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::RecoveryDialog</name>
+    <message numerus="yes">
+        <source>%1 and %n more</source>
+        <translation>
+            <numerusform>%1 et %n autre</numerusform>
+            <numerusform>%1 et %n autres</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Recovered work</source>
+        <translation>Travail récupéré</translation>
+    </message>
+    <message>
+        <source>Atrium did not end properly. Work that was not saved has been kept.</source>
+        <translation>Atrium ne s&apos;est pas terminé normalement. Le travail non enregistré a été gardé.</translation>
+    </message>
+    <message>
+        <source>Work that was not saved: kept after a crash, or given up in the last two weeks.</source>
+        <translation>Travail non enregistré : gardé après un arrêt brutal, ou abandonné ces deux dernières semaines.</translation>
+    </message>
+    <message>
+        <source>Untitled</source>
+        <translation>Sans titre</translation>
+    </message>
+    <message>
+        <source>%1, %2, reverted</source>
+        <translation>%1, %2, abandonné</translation>
+    </message>
+    <message>
+        <source>%1, %2, discarded</source>
+        <translation>%1, %2, rejeté</translation>
+    </message>
+    <message>
+        <source>%1, %2</source>
+        <translation>%1, %2</translation>
+    </message>
+    <message>
+        <source>Picture of the saved file</source>
+        <translation>Image du fichier enregistré</translation>
+    </message>
+    <message>
+        <source>Picture of the recovered work</source>
+        <translation>Image du travail récupéré</translation>
+    </message>
+    <message>
+        <source>Open Recovered</source>
+        <translation>Ouvrir le travail récupéré</translation>
+    </message>
+    <message>
+        <source>Open Saved File</source>
+        <translation>Ouvrir le fichier enregistré</translation>
+    </message>
+    <message>
+        <source>Delete Recovered</source>
+        <translation>Supprimer le travail récupéré</translation>
+    </message>
+    <message>
+        <source>Later</source>
+        <translation>Plus tard</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Fermer</translation>
+    </message>
+    <message>
+        <source>Saved: %1
+%2</source>
+        <translation>Enregistré : %1
+%2</translation>
+    </message>
+    <message>
+        <source>Saved: never</source>
+        <translation>Enregistré : jamais</translation>
+    </message>
+    <message>
+        <source>Saved: the file is gone
+%1</source>
+        <translation>Enregistré : le fichier a disparu
+%1</translation>
+    </message>
+    <message>
+        <source>Recovered: %1</source>
+        <translation>Récupéré : %1</translation>
+    </message>
+    <message>
+        <source>Drawing...</source>
+        <translation>Dessin en cours...</translation>
+    </message>
+    <message>
+        <source>There is no saved file.</source>
+        <translation>Il n&apos;y a pas de fichier enregistré.</translation>
+    </message>
+    <message>
+        <source>The saved file is newer than the recovered work.</source>
+        <translation>Le fichier enregistré est plus récent que le travail récupéré.</translation>
+    </message>
+    <message>
+        <source>Both hold the same objects in the same places.</source>
+        <translation>Les deux contiennent les mêmes objets aux mêmes endroits.</translation>
+    </message>
+    <message>
+        <source>Changed in the recovered work: %1</source>
+        <translation>Changé dans le travail récupéré : %1</translation>
+    </message>
+    <message>
+        <source>Only in the recovered work: %1</source>
+        <translation>Seulement dans le travail récupéré : %1</translation>
+    </message>
+    <message>
+        <source>Only in the saved file: %1</source>
+        <translation>Seulement dans le fichier enregistré : %1</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::SceneSection</name>
+    <message>
+        <source>Scene</source>
+        <translation>Scène</translation>
+    </message>
+    <message>
+        <source>Sky colour</source>
+        <translation>Couleur du ciel</translation>
+    </message>
+    <message>
+        <source> cd/m²</source>
+        <translation> cd/m²</translation>
+    </message>
+    <message>
+        <source>Sky luminance</source>
+        <translation>Luminance du ciel</translation>
+    </message>
+    <message>
+        <source>Light quality</source>
+        <translation>Qualité de la lumière</translation>
+    </message>
+    <message>
+        <source>Draft</source>
+        <translation>Ébauche</translation>
+    </message>
+    <message>
+        <source>Normal</source>
+        <translation>Normale</translation>
+    </message>
+    <message>
+        <source>Fine</source>
+        <translation>Fine</translation>
+    </message>
+    <message>
+        <source>The scene is empty. The Add menu puts in shapes, lamps and cameras.</source>
+        <translation>La scène est vide. Le menu Ajout y met formes, lampes et caméras.</translation>
+    </message>
+    <message>
+        <source>%1 objects, %2 materials</source>
+        <translation>%1 objets, %2 matériaux</translation>
+    </message>
+    <message>
+        <source>, %1 x %2 x %3 m</source>
+        <translation>, %1 x %2 x %3 m</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::SceneTreeModel</name>
+    <message>
+        <source>(unnamed)</source>
+        <translation>(sans nom)</translation>
+    </message>
+    <message>
+        <source>Hide this object</source>
+        <translation>Masquer cet objet</translation>
+    </message>
+    <message>
+        <source>Show this object</source>
+        <translation>Afficher cet objet</translation>
+    </message>
+    <message>
+        <source>Unlock this object</source>
+        <translation>Déverrouiller cet objet</translation>
+    </message>
+    <message>
+        <source>Lock this object against picking and moving</source>
+        <translation>Verrouiller cet objet contre la sélection et le déplacement</translation>
+    </message>
+    <message>
+        <source>visible</source>
+        <translation>visible</translation>
+    </message>
+    <message>
+        <source>hidden</source>
+        <translation>masqué</translation>
+    </message>
+    <message>
+        <source>locked</source>
+        <translation>verrouillé</translation>
+    </message>
+    <message>
+        <source>not locked</source>
+        <translation>non verrouillé</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>Renommer</translation>
+    </message>
+    <message>
+        <source>Move in tree</source>
+        <translation>Déplacer dans l&apos;arbre</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::SceneTreePanel</name>
+    <message>
+        <source>Filter objects</source>
+        <translation>Filtrer les objets</translation>
+    </message>
+    <message>
+        <source>Filter objects by name</source>
+        <translation>Filtrer les objets par nom</translation>
+    </message>
+    <message>
+        <source>Scene tree</source>
+        <translation>Arbre de la scène</translation>
+    </message>
+    <message>
+        <source>Hide</source>
+        <translation>Masquer</translation>
+    </message>
+    <message>
+        <source>Show</source>
+        <translation>Afficher</translation>
+    </message>
+    <message>
+        <source>Unlock</source>
+        <translation>Déverrouiller</translation>
+    </message>
+    <message>
+        <source>Lock</source>
+        <translation>Verrouiller</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::Section</name>
+    <message>
+        <source>Change %1</source>
+        <translation>Changer %1</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::ShapeSection</name>
+    <message>
+        <source>Shape</source>
+        <translation>Forme</translation>
+    </message>
+    <message>
+        <source>Width (X)</source>
+        <translation>Largeur (X)</translation>
+    </message>
+    <message>
+        <source>Height (Y)</source>
+        <translation>Hauteur (Y)</translation>
+    </message>
+    <message>
+        <source>Depth (Z)</source>
+        <translation>Profondeur (Z)</translation>
+    </message>
+    <message>
+        <source>Width</source>
+        <translation>Largeur</translation>
+    </message>
+    <message>
+        <source>Depth</source>
+        <translation>Profondeur</translation>
+    </message>
+    <message>
+        <source>Radius</source>
+        <translation>Rayon</translation>
+    </message>
+    <message>
+        <source>Disc radius</source>
+        <translation>Rayon du disque</translation>
+    </message>
+    <message>
+        <source>Cylinder radius</source>
+        <translation>Rayon du cylindre</translation>
+    </message>
+    <message>
+        <source>Cylinder height</source>
+        <translation>Hauteur du cylindre</translation>
+    </message>
+    <message>
+        <source>Base radius</source>
+        <translation>Rayon de la base</translation>
+    </message>
+    <message>
+        <source>Top radius</source>
+        <translation>Rayon du sommet</translation>
+    </message>
+    <message>
+        <source>Cone height</source>
+        <translation>Hauteur du cône</translation>
+    </message>
+    <message>
+        <source>Closed ends</source>
+        <translation>Extrémités fermées</translation>
+    </message>
+    <message>
+        <source>Shapes of several kinds</source>
+        <translation>Formes de plusieurs types</translation>
+    </message>
+    <message>
+        <source>Mesh: %1 triangles, %2 part(s)</source>
+        <translation>Maillage : %1 triangles, %2 partie(s)</translation>
+    </message>
+    <message>
+        <source>Polygon: %1 corners, %2 hole(s)</source>
+        <translation>Polygone : %1 sommets, %2 trou(s)</translation>
+    </message>
+    <message>
+        <source>, shared by %1 objects</source>
+        <translation>, partagé par %1 objets</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::StartPage</name>
+    <message>
+        <source>Edit an interior and see its light follow.</source>
+        <translation>Composez un intérieur et voyez la lumière suivre.</translation>
+    </message>
+    <message>
+        <source>Sample Room</source>
+        <translation>Pièce d&apos;exemple</translation>
+    </message>
+    <message>
+        <source>Open a furnished room to try things out</source>
+        <translation>Ouvrir une pièce meublée pour essayer</translation>
+    </message>
+    <message>
+        <source>Open File</source>
+        <translation>Ouvrir un fichier</translation>
+    </message>
+    <message>
+        <source>New Scene</source>
+        <translation>Nouvelle scène</translation>
+    </message>
+    <message>
+        <source>Recent files</source>
+        <translation>Fichiers récents</translation>
+    </message>
+    <message>
+        <source>glTF (.gltf, .glb) and Atrium (.atrium) files can also be dropped onto this window.</source>
+        <translation>Les fichiers glTF (.gltf, .glb) et Atrium (.atrium) peuvent aussi être déposés sur cette fenêtre.</translation>
+    </message>
+    <message>
+        <source>%1   in %2</source>
+        <translation>%1   dans %2</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::ViewportWidget</name>
+    <message>
+        <source>3D view</source>
+        <translation>Vue 3D</translation>
+    </message>
+    <message>
+        <source>Walk: W A S D to go, drag to look, Q E lower or raise the eye, Shift faster, Esc leaves</source>
+        <translation>Marche : W A S D pour avancer, glisser pour regarder, Q E pour baisser ou lever l&apos;œil, Maj plus vite, Échap quitte</translation>
+    </message>
+    <message>
+        <source>There is no surface in the middle of the view.</source>
+        <translation>Il n&apos;y a pas de surface au milieu de la vue.</translation>
+    </message>
+    <message>
+        <source>Select an object first.</source>
+        <translation>Sélectionnez d&apos;abord un objet.</translation>
+    </message>
+    <message>
+        <source>Nothing lies below the selection, or it is locked.</source>
+        <translation>Rien sous la sélection, ou elle est verrouillée.</translation>
+    </message>
+    <message>
+        <source>Drop to surface</source>
+        <translation>Poser sur la surface</translation>
+    </message>
+    <message>
+        <source>The selection rests already.</source>
+        <translation>La sélection repose déjà.</translation>
+    </message>
+    <message>
+        <source>Lowered by %1 m</source>
+        <translation>Descendu de %1 m</translation>
+    </message>
+    <message>
+        <source>Only the selection is shown; its light is that of the whole scene.</source>
+        <translation>Seule la sélection est affichée ; sa lumière est celle de toute la scène.</translation>
+    </message>
+    <message>
+        <source>The 3D view needs OpenGL 3.3. Update the graphics driver, or start with software rendering: LIBGL_ALWAYS_SOFTWARE=1</source>
+        <translation>La vue 3D a besoin d&apos;OpenGL 3.3. Mettez à jour le pilote graphique, ou démarrez en rendu logiciel : LIBGL_ALWAYS_SOFTWARE=1</translation>
+    </message>
+</context>
+</TS>

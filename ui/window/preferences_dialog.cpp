@@ -1,0 +1,55 @@
+#include "ui/window/preferences_dialog.h"
+
+#include "ui/window/settings.h"
+#include "ui/window/translation.h"
+
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QVBoxLayout>
+
+namespace atrium::ui {
+
+PreferencesDialog::PreferencesDialog(QWidget* parent) : QDialog(parent) {
+    setObjectName(QStringLiteral("preferences_dialog"));
+    setWindowTitle(tr("Preferences"));
+    auto* layout = new QVBoxLayout(this);
+    auto* form = new QFormLayout;
+    const Settings settings;
+    language_ = new QComboBox;
+    language_->setObjectName(QStringLiteral("language"));
+    language_->addItem(tr("As the system (%1)").arg(language_name(chosen_language({}))), QString());
+    for (const QString& code : languages()) {
+        language_->addItem(language_name(code), code);
+    }
+    language_->setCurrentIndex(std::max(0, language_->findData(settings.language())));
+    form->addRow(tr("&Language:"), language_);
+    autosave_ = new QComboBox;
+    autosave_->setObjectName(QStringLiteral("autosave"));
+    for (const int seconds : {10, 30, 60, 120}) {
+        autosave_->addItem(seconds < 60 ? tr("%n second(s) after a change", nullptr, seconds)
+                                        : tr("%n minute(s) after a change", nullptr, seconds / 60),
+                           seconds);
+    }
+    autosave_->setCurrentIndex(std::max(0, autosave_->findData(settings.autosave_seconds())));
+    form->addRow(tr("Keep &unsaved work:"), autosave_);
+    layout->addLayout(form);
+    auto* hint = new QLabel(tr("Another language shows when Atrium is started again."));
+    hint->setEnabled(false);
+    layout->addWidget(hint);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);
+    layout->addWidget(buttons);
+    connect(buttons, &QDialogButtonBox::accepted, this, &PreferencesDialog::store);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+}
+
+void PreferencesDialog::store() {
+    Settings settings;
+    settings.set_language(language_->currentData().toString());
+    settings.set_autosave_seconds(autosave_->currentData().toInt());
+    accept();
+    Q_EMIT stored();
+}
+
+} // namespace atrium::ui
