@@ -40,3 +40,7 @@ target_link_libraries(direct_light_bench PRIVATE atrium_engine CLI11::CLI11)
 
 add_executable(relight_bench ${CMAKE_CURRENT_LIST_DIR}/relight_bench.cpp)
 target_link_libraries(relight_bench PRIVATE atrium_engine CLI11::CLI11)
+
+add_executable(stills_bench ${CMAKE_CURRENT_LIST_DIR}/stills_bench.cpp)
+target_link_libraries(stills_bench PRIVATE atrium_engine CLI11::CLI11)
+target_compile_definitions(stills_bench PRIVATE ATRIUM_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
