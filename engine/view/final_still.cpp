@@ -104,7 +104,10 @@ private:
             return;
         }
         out.direct += shares_.direct ? scattered * light.direct : Rgb(0.0F);
-        out.diffuse += shares_.diffuse ? scattered * light.diffuse : Rgb(0.0F);
+        if (shares_.diffuse) {
+            out.diffuse += scattered * light.diffuse;
+            out.read += gather_ ? scattered * lit_.irradiance(at.hit, {true, false, false}) : Rgb(0.0F);
+        }
     }
 
     const LitScene& lit_;

@@ -42,48 +42,6 @@ std::vector<PictureChannel> StillLayers::channels() const {
     return out;
 }
 
-StillSums::StillSums(int width, int height)
-    : width_(std::max(width, 1)), height_(std::max(height, 1)), sums_(std::size_t(width_) * std::size_t(height_)),
-      counts_(sums_.size(), 0) {}
-
-void StillSums::add(std::size_t pixel, const EyeLight& light) {
-    Sum& sum = sums_[pixel];
-    sum.light.direct += light.direct;
-    sum.light.diffuse += light.diffuse;
-    sum.light.caustic += light.caustic;
-    sum.light.specular += light.specular;
-    sum.light.albedo += light.albedo;
-    sum.light.normal += light.normal;
-    if (light.depth > 0.0F) {
-        sum.light.depth += light.depth;
-        ++sum.met;
-    }
-    ++counts_[pixel];
-}
-
-StillLayers StillSums::mean() const {
-    StillLayers out;
-    for (Picture* picture : {&out.direct, &out.diffuse, &out.caustic, &out.specular, &out.albedo, &out.normal}) {
-        picture->width = width_;
-        picture->height = height_;
-        picture->pixels.assign(sums_.size(), vec3(0.0F));
-    }
-    out.depth.assign(sums_.size(), 0.0F);
-    for (std::size_t i = 0; i < sums_.size(); ++i) {
-        const float share = counts_[i] > 0 ? 1.0F / float(counts_[i]) : 0.0F;
-        const EyeLight& light = sums_[i].light;
-        out.direct.pixels[i] = light.direct * share;
-        out.diffuse.pixels[i] = light.diffuse * share;
-        out.caustic.pixels[i] = light.caustic * share;
-        out.specular.pixels[i] = light.specular * share;
-        out.albedo.pixels[i] = light.albedo * share;
-        const float length = glm::length(light.normal);
-        out.normal.pixels[i] = length > 0.0F ? light.normal / length : vec3(0.0F);
-        out.depth[i] = sums_[i].met > 0 ? light.depth / float(sums_[i].met) : 0.0F;
-    }
-    return out;
-}
-
 namespace {
 
 StillLayers from_layers(const Scene& scene, const Solution& solution, const ViewCamera& camera, const StillOptions& options,
