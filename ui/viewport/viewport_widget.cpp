@@ -107,6 +107,7 @@ struct ViewportWidget::Impl : ToolHost {
     QTimer refine_timer;
     QTimer probe_timer;
     QTimer upload_timer;
+    SpecularOverlay specular{[this] { return specular_request(); }};
     QMetaObject::Connection context_gone;
 
     bool walking = false;
@@ -135,6 +136,7 @@ struct ViewportWidget::Impl : ToolHost {
         QObject::connect(&probe_timer, &QTimer::timeout, &widget, [this] { step_probe(); });
         QObject::connect(&upload_timer, &QTimer::timeout, &widget, [this] { step_upload(); });
         QObject::connect(&pending_timer, &QTimer::timeout, &widget, [this] { flush(); });
+        QObject::connect(&specular, &SpecularOverlay::ready, &widget, [this] { widget.update(); });
         QObject::connect(&refine_timer, &QTimer::timeout, &widget, [this] {
             refine = true;
             widget.update();
@@ -249,7 +251,27 @@ struct ViewportWidget::Impl : ToolHost {
         renderer.invalidate_picture();
         markers_dirty = true;
         refine = false;
+        specular.changed();
         widget.update();
+    }
+    /// What is traced over the picture once it rests: mirrors and glass as a still shows them.
+    [[nodiscard]] std::optional<SpecularOverlay::Request> specular_request() {
+        if (gl == nullptr || !solution || pressed != Qt::NoButton || doc.in_gesture() || false_color || wireframe ||
+            view.isolated()) {
+            return std::nullopt;
+        }
+        sync();
+        if (view.cutaway().active()) {
+            return std::nullopt; // rays would end at walls that the picture leaves out
+        }
+        const double ratio = widget.devicePixelRatioF();
+        return SpecularOverlay::Request{doc.scene(),
+                                        doc.revision(),
+                                        solution,
+                                        widget.camera(),
+                                        std::max(1, int(std::lround(widget.width() * ratio))),
+                                        std::max(1, int(std::lround(widget.height() * ratio))),
+                                        shares};
     }
     /// Mirrors follow when everything else has rested a little.
     void probe_changed() {
@@ -1028,7 +1050,8 @@ void ViewportWidget::paintGL() {
                   std::max(1, int(std::lround(width() * ratio))),
                   std::max(1, int(std::lround(height() * ratio))),
                   ratio,
-                  defaultFramebufferObject()};
+                  defaultFramebufferObject(),
+                  impl_->specular.pixels()};
     impl_->renderer.paint(in);
     if (impl_->renderer.incomplete()) {
         QTimer::singleShot(0, this, [this] { update(); }); // after the events that wait
