@@ -31,6 +31,9 @@ struct Arguments {
     std::string scale = "log";
     std::string legend;
     bool contours = false;
+    bool final_pass = false;
+    std::optional<int> samples;
+    bool channels = false;
     SolveArguments solve;
 };
 
@@ -123,6 +126,10 @@ int run(const Arguments& a) {
         return refuse({a.out, "", "an .exr holds amounts of light, not colours that stand for them",
                        "Use a name that ends in .png, or leave --false-colour out."});
     }
+    if (a.channels && extension != ".exr") {
+        return refuse(
+            {a.out, "", "a .png has no room for more channels", "Use a name that ends in .exr, or leave --channels out."});
+    }
     const auto wish = parse_scale(a);
     if (!wish) {
         return refuse(wish.error());
@@ -135,6 +142,11 @@ int run(const Arguments& a) {
     StillOptions options;
     options.width = size->first;
     options.height = size->second;
+    options.final_pass = a.final_pass;
+    if (a.samples) {
+        options.final_samples = *a.samples;
+        options.samples_per_axis = std::max(1, int(std::lround(std::sqrt(double(*a.samples)))));
+    }
     for (const std::string* path : {&a.out, &a.legend}) {
         if (auto fine = check_output(*path); !fine) {
             return refuse(fine.error());
@@ -158,6 +170,7 @@ int run(const Arguments& a) {
     context.stop = new_stop_flag();
     context.on_progress = progress_reporter(a.solve.progress);
     options.shares = layers->seen;
+    options.seed = a.solve.seed.value_or(solved->scene.settings.seed);
     if (!layers->specular) {
         options.max_specular_depth = 0;
     }
@@ -166,8 +179,17 @@ int run(const Arguments& a) {
         scale = fitted_scale(scale, light_range(solved->scene, *solved->solution, scale.quantity, options.shares));
     }
     const bool amounts = !a.false_color.empty();
-    Picture picture = amounts ? render_false_color(solved->scene, *solved->solution, *camera, options, scale, context)
-                              : render_still(solved->scene, *solved->solution, *camera, options, context);
+    Picture picture;
+    std::vector<PictureChannel> channels;
+    if (amounts) {
+        picture = render_false_color(solved->scene, *solved->solution, *camera, options, scale, context);
+    } else {
+        const StillLayers parts = render_layers(solved->scene, *solved->solution, *camera, options, context);
+        picture = parts.beauty();
+        if (a.channels) {
+            channels = parts.channels();
+        }
+    }
     finish_progress();
     solved->stopped = solved->stopped || context.should_stop();
     if (extension == ".png" && !amounts) {
@@ -177,7 +199,7 @@ int run(const Arguments& a) {
             pixel = display_color(pixel, exposure);
         }
     }
-    if (auto written = write_picture(a.out, picture); !written) {
+    if (auto written = write_picture(a.out, picture, channels); !written) {
         return refuse(written.error());
     }
     if (amounts && !a.legend.empty()) {
@@ -201,11 +223,21 @@ void add_render(CLI::App& app, int& status) {
     command->add_option("--exposure", a->exposure, "Stops above automatic exposure, .png only (default: the camera's own)")
         ->check(CLI::Range(-30.0, 30.0));
     command->add_option("--layers", a->layers, "Of direct,diffuse,caustic,specular (default: all)");
+    auto* final_pass = command->add_flag("--final", a->final_pass,
+                                         "Compute the light of every pixel instead of reading it from the solution: sharp "
+                                         "contacts and small things, for minutes of time");
+    command
+        ->add_option("--samples", a->samples, "Samples a pixel (default: 4; with --final 64, rounded up to a power of two)")
+        ->check(CLI::Range(1, 4096));
+    command->add_flag("--channels", a->channels,
+                      "Also write the picture's parts into the .exr: direct, diffuse, caustic and specular light, which add "
+                      "up to it, and albedo, normal and depth");
     auto* false_color =
         command
             ->add_option("--false-colour", a->false_color,
                          "Show an amount of light in colours: illuminance (lux) or luminance (cd/m2); .png only")
-            ->check(CLI::IsMember({"illuminance", "luminance"}));
+            ->check(CLI::IsMember({"illuminance", "luminance"}))
+            ->excludes(final_pass);
     command->add_option("--range", a->range, "Ends of its scale, as 20,2000 (default: fitted to the scene's light)")
         ->needs(false_color);
     command->add_option("--scale", a->scale, "Its scale: log or linear")

@@ -8,11 +8,7 @@
 namespace atrium {
 namespace {
 
-/// Both ways on from a point at one facet; weights are shares of the light, not yet over any probability.
-struct Ways {
-    SpecularSample reflected;
-    SpecularSample transmitted;
-};
+using Ways = SpecularWays;
 
 bool smooth(const Material& m) { return m.roughness < kMirrorRoughness; }
 
@@ -146,6 +142,8 @@ Ways ways_on(const SpecularPoint& at, const vec3& in, const vec2& u) {
 }
 
 } // namespace
+
+SpecularWays specular_ways(const SpecularPoint& at, const vec3& in, const vec2& u) { return ways_on(at, in, u); }
 
 bool is_specular(const Material& m) {
     switch (classify(m)) {

@@ -47,6 +47,14 @@ struct SpecularPoint {
 /// diffuse materials, and points that no light can come to, give weight 0. Any input; never NaN.
 SpecularSample sample_specular(const SpecularPoint& at, const vec3& in, const vec3& u);
 
+/// Both ways on for the facet that u.x, u.y pick, each with its own share of the light and no choice between them: for
+/// whoever follows both. Weights may be 0. sample_specular() is a choice between these two in proportion to their weights.
+struct SpecularWays {
+    SpecularSample reflected;
+    SpecularSample transmitted;
+};
+SpecularWays specular_ways(const SpecularPoint& at, const vec3& in, const vec2& u);
+
 /// Share of light along `in` that sample_specular() sends on, mean over u, luminance: for telling which surfaces matter.
 float specular_albedo(const SpecularPoint& at, const vec3& in);
 

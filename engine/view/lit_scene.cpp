@@ -1,5 +1,7 @@
 #include "engine/view/lit_scene.h"
 
+#include <algorithm>
+
 namespace atrium {
 namespace {
 
@@ -50,6 +52,22 @@ LitScene::LitScene(const Scene& scene, const Solution& solution) {
         node.materials = std::move(materials);
     }
     rays_ = std::make_unique<RayScene>(lit);
+}
+
+Rgb LitScene::radiance(const Hit& hit) const {
+    if (!hit.front && !rays_->surfaces()[hit.surface].back_side) {
+        return Rgb(0.0F);
+    }
+    Material at_point = rays_->material(hit.surface);
+    const vec4 color = rays_->base_color(hit.surface, hit.triangle, hit.barycentric);
+    const float covered = at_point.alpha_mode == Material::Alpha::Blend ? std::clamp(color.a, 0.0F, 1.0F) : 1.0F;
+    at_point.base_color = Rgb(color);
+    const Rgb reflectance = diffuse_reflectance(at_point);
+    Rgb out = rays_->emission(hit.surface, hit.triangle, hit.barycentric);
+    if (max_component(reflectance) > 0.0F) {
+        out += reflectance * kInvPi * irradiance(hit);
+    }
+    return out * covered;
 }
 
 Rgb LitScene::irradiance(const Hit& hit, const LightShares& shares) const {

@@ -18,6 +18,9 @@ public:
     [[nodiscard]] const RayScene& rays() const { return *rays_; }
     /// Irradiance on the side of the surface that the ray met, lux; zero where the solution knows none.
     [[nodiscard]] Rgb irradiance(const Hit& hit, const LightShares& shares = {}) const;
+    /// What the side that the ray met sends out by itself and by scattering the light on it, cd/m2; the same in all
+    /// directions.
+    [[nodiscard]] Rgb radiance(const Hit& hit) const;
 
 private:
     struct Part {

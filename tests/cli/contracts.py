@@ -366,6 +366,24 @@ class Render(CliTest):
         self.run_cli("render", self.room, "-o", self.path("c.exr"), "--layers", "caustic", "--quality", "draft", "--size", "16x16")
         self.refused("render", self.room, "-o", self.path("n.exr"), "--layers", "nonsense", says=["direct", "diffuse", "caustic"])
 
+    def test_render_final_and_channels(self):
+        size = ("--size", "24x20", "--quality", "draft")
+        self.run_cli("render", self.room, "-o", self.path("f.exr"), *size, "--final", "--samples", "4", "--channels")
+        self.run_cli("render", self.room, "-o", self.path("g.exr"), *size, "--final", "--samples", "4")
+        self.run_cli("render", self.room, "-o", self.path("h.exr"), *size)
+        same = json.loads(self.run_cli("compare", self.path("f.exr"), self.path("g.exr"), "--json").stdout)
+        self.assertEqual(same["relRMSE"], 0)  # the same light with more channels beside it
+        other = json.loads(self.run_cli("compare", self.path("f.exr"), self.path("h.exr"), "--json").stdout)
+        self.assertGreater(other["relRMSE"], 0)  # computed, not read from the layers
+        self.assertLess(abs(other["mean_relative_bias"]), 0.2)
+        with open(self.path("f.exr"), "rb") as file:
+            header = file.read(4000)
+        for name in (b"direct.R", b"diffuse.G", b"caustic.B", b"specular.R", b"albedo.R", b"normal.X", b"depth.Z"):
+            self.assertIn(name, header)
+        self.refused("render", self.room, "-o", self.path("a.png"), "--channels", says=[".exr"])
+        self.refused("render", self.room, "-o", self.path("a.png"), "--final", "--samples", "0", says=["--samples"])
+        self.refused("render", self.room, "-o", self.path("a.png"), "--final", "--false-colour", "illuminance")
+
     def test_false_colour(self):
         project = self.path("room.atrium")
         self.run_cli("solve", self.room, "-o", project, "--quality", "draft")

@@ -1,11 +1,15 @@
 #include "window_fixture.h"
 
+#include "engine/io/image_file.h"
 #include "engine/io/scene_file.h"
 #include "ui/document/sample_room.h"
+#include "ui/panels/number_field.h"
 #include "ui/tools/gizmo.h"
 #include "ui/window/export_picture_dialog.h"
 
+#include <QCheckBox>
 #include <QDialog>
+#include <QDialogButtonBox>
 #include <QDragEnterEvent>
 #include <QFile>
 #include <QImage>
@@ -429,10 +433,11 @@ TEST_F(WindowTest, RendersAPictureOfTheView) {
     auto* settings = dialog<ExportPictureDialog>();
     ASSERT_NE(settings, nullptr);
     const auto fields = settings->findChildren<NumberField*>();
-    ASSERT_EQ(fields.size(), 3);
+    ASSERT_EQ(fields.size(), 4);
     type(fields[0], "64");
     type(fields[1], "48");
     type(fields[2], "1");
+    EXPECT_FALSE(fields[3]->isEnabled()) << "of the final pass alone";
     const QString path = folder.filePath(QStringLiteral("view.png"));
     settings->render(path);
     ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(path); }, 30000));
@@ -443,6 +448,45 @@ TEST_F(WindowTest, RendersAPictureOfTheView) {
         lit += picture.pixelColor(x, 24).lightness() > 20 ? 1 : 0;
     }
     EXPECT_GT(lit, 40) << "the room is lit";
+}
+
+TEST_F(WindowTest, RendersAFinalPassWithItsPartsAndStopsWhenAsked) {
+    open_sample();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return window->engine().solution() != nullptr; }, 60000));
+    settle();
+    trigger(ActionId::ExportPicture);
+    auto* settings = dialog<ExportPictureDialog>();
+    ASSERT_NE(settings, nullptr);
+    const auto fields = settings->findChildren<NumberField*>();
+    const auto boxes = settings->findChildren<QCheckBox*>();
+    ASSERT_EQ(fields.size(), 4);
+    ASSERT_EQ(boxes.size(), 2);
+    boxes[0]->click();
+    boxes[1]->click();
+    EXPECT_TRUE(fields[3]->isEnabled());
+    EXPECT_FALSE(fields[2]->isEnabled());
+    type(fields[0], "64");
+    type(fields[1], "48");
+    type(fields[3], "4096");
+    const QString stopped = folder.filePath(QStringLiteral("stopped.exr"));
+    settings->render(stopped);
+    auto* cancel = settings->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Cancel);
+    QPushButton* start = nullptr;
+    QTest::qWait(300);
+    cancel->click();
+    for (QAbstractButton* button : settings->findChild<QDialogButtonBox*>()->buttons()) {
+        start = button == cancel ? start : qobject_cast<QPushButton*>(button);
+    }
+    ASSERT_TRUE(QTest::qWaitFor([&] { return start->isEnabled(); }, 20000));
+    EXPECT_FALSE(QFile::exists(stopped));
+    type(fields[3], "2");
+    const QString path = folder.filePath(QStringLiteral("view.exr"));
+    settings->render(path);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return QFile::exists(path); }, 60000));
+    const auto image = read_image(path.toStdString());
+    ASSERT_TRUE(image);
+    EXPECT_EQ(image->width, 64);
+    EXPECT_GE(image->channels, 3);
 }
 
 TEST_F(WindowTest, ASceneFileDroppedOntoTheWindowOpens) {

@@ -24,7 +24,8 @@ bool PictureRenderer::initialize(Gl& gl) {
     outline_ = load_program("outline.vert", "outline.frag");
     overlay_ = load_program("overlay.vert", "overlay.frag");
     plate_ = load_program("plate.vert", "plate.frag");
-    if (!gpu_.initialize(gl) || !figures_.initialize(gl) || !outline_ || !overlay_ || !plate_) {
+    if (!gpu_.initialize(gl) || !figures_.initialize(gl) || !specular_.initialize(gl) || !outline_ || !overlay_ ||
+        !plate_) {
         return false;
     }
     gl.glGenVertexArrays(1, &empty_array_);
@@ -50,6 +51,7 @@ void PictureRenderer::release() {
     }
     gpu_.release();
     figures_.release();
+    specular_.release();
     picture_.release(*gl_);
     resolved_.release(*gl_);
     mask_.release(*gl_);
@@ -90,6 +92,9 @@ void PictureRenderer::paint(const FrameInput& in) {
     gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, shown.framebuffer());
     gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER, in.framebuffer);
     gl.glBlitFramebuffer(0, 0, in.width, in.height, 0, 0, in.width, in.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    gl.glBindFramebuffer(GL_FRAMEBUFFER, in.framebuffer);
+    gl.glViewport(0, 0, in.width, in.height);
+    specular_.draw(in.specular, in.width, in.height, in.exposure);
     draw_outlines(in, from);
     gl.glBindFramebuffer(GL_FRAMEBUFFER, in.framebuffer);
     gl.glViewport(0, 0, in.width, in.height);

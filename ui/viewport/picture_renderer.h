@@ -4,6 +4,7 @@
 #include "ui/viewport/gpu_scene.h"
 #include "ui/viewport/overlay_batch.h"
 #include "ui/viewport/scene_figures.h"
+#include "ui/viewport/specular_overlay.h"
 
 #include <QImage>
 
@@ -41,7 +42,8 @@ struct FrameInput {
     int width = 1;                         ///< device pixels
     int height = 1;
     double pixel_ratio = 1.0;
-    unsigned framebuffer = 0; ///< to draw into
+    unsigned framebuffer = 0;                            ///< to draw into
+    std::shared_ptr<const SpecularPixels> specular = {}; ///< traced mirrors and glass of this very view; or null
 };
 
 /// Context current in every function but the constructor and the invalidate functions. UI thread only.
@@ -90,6 +92,7 @@ private:
     GlTarget picture_;
     GlTarget resolved_;
     GlTarget mask_;
+    SpecularLayer specular_;
     std::unique_ptr<QOpenGLShaderProgram> outline_;
     std::unique_ptr<QOpenGLShaderProgram> overlay_;
     std::unique_ptr<QOpenGLShaderProgram> plate_;

@@ -8,6 +8,7 @@
 #include "ui/viewport/light_inspector.h"
 #include "ui/viewport/markers.h"
 #include "ui/viewport/picture_renderer.h"
+#include "ui/viewport/specular_overlay.h"
 #include "ui/viewport/viewport_widget.h"
 
 #include <QElapsedTimer>
@@ -89,6 +90,7 @@ struct ViewportWidget::Impl final : ToolHost {
     QTimer refine_timer;
     QTimer probe_timer;
     QTimer upload_timer;
+    SpecularOverlay specular{[this] { return specular_request(); }};
     QMetaObject::Connection context_gone;
 
     bool walking = false;
@@ -125,6 +127,8 @@ struct ViewportWidget::Impl final : ToolHost {
 
     // ---- what changed ----
     void picture_changed();
+    /// What is traced over the picture once it rests: mirrors and glass as a still shows them.
+    [[nodiscard]] std::optional<SpecularOverlay::Request> specular_request();
     /// Mirrors follow when everything else has rested a little.
     void probe_changed();
     void step_probe();

@@ -144,7 +144,8 @@ void ViewportWidget::paintGL() {
                   std::max(1, int(std::lround(width() * ratio))),
                   std::max(1, int(std::lround(height() * ratio))),
                   ratio,
-                  defaultFramebufferObject()};
+                  defaultFramebufferObject(),
+                  impl_->specular.pixels()};
     impl_->renderer.paint(in);
     if (impl_->renderer.incomplete()) {
         QTimer::singleShot(0, this, [this] { update(); }); // after the events that wait

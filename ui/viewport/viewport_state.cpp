@@ -38,6 +38,7 @@ ViewportWidget::Impl::Impl(ViewportWidget& w, Document& d, EngineLink& e)
     QObject::connect(&probe_timer, &QTimer::timeout, &widget, [this] { step_probe(); });
     QObject::connect(&upload_timer, &QTimer::timeout, &widget, [this] { step_upload(); });
     QObject::connect(&pending_timer, &QTimer::timeout, &widget, [this] { flush(); });
+    QObject::connect(&specular, &SpecularOverlay::ready, &widget, [this] { widget.update(); });
     QObject::connect(&refine_timer, &QTimer::timeout, &widget, [this] {
         refine = true;
         widget.update();
@@ -90,7 +91,27 @@ void ViewportWidget::Impl::picture_changed() {
     renderer.invalidate_picture();
     markers_dirty = true;
     refine = false;
+    specular.changed();
     widget.update();
+}
+
+std::optional<SpecularOverlay::Request> ViewportWidget::Impl::specular_request() {
+    if (gl == nullptr || !solution || pressed != Qt::NoButton || doc.in_gesture() || false_color || wireframe ||
+        view.isolated() || inspector.choice().colors != ElementColors::None) {
+        return std::nullopt;
+    }
+    sync();
+    if (view.cutaway().active()) {
+        return std::nullopt; // rays would end at walls that the picture leaves out
+    }
+    const double ratio = widget.devicePixelRatioF();
+    return SpecularOverlay::Request{doc.scene(),
+                                    doc.revision(),
+                                    solution,
+                                    widget.camera(),
+                                    std::max(1, int(std::lround(widget.width() * ratio))),
+                                    std::max(1, int(std::lround(widget.height() * ratio))),
+                                    shares};
 }
 
 void ViewportWidget::Impl::probe_changed() {

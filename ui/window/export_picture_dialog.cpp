@@ -7,6 +7,7 @@
 #include "ui/viewport/legend.h"
 #include "ui/window/settings.h"
 
+#include <QCheckBox>
 #include <QDialogButtonBox>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -21,6 +22,9 @@
 namespace atrium::ui {
 namespace {
 
+constexpr int kPreviewWidth = 400; // pixels
+constexpr int kPreviewHeight = 300;
+
 /// Paints the scale's legend at the right edge of a finished picture, as large as in the view.
 void add_legend(Picture& picture, const FalseColor& scale, QFont font) {
     const double zoom = std::max(picture.height / 800.0, 0.5);
@@ -34,6 +38,30 @@ void add_legend(Picture& picture, const FalseColor& scale, QFont font) {
             pixel = glm::mix(pixel, vec3(ink.redF(), ink.greenF(), ink.blueF()), ink.alphaF());
         }
     }
+}
+
+/// A picture as it is shown, at most as wide and high as given.
+QImage small_image(const Picture& picture, float exposure, int width, int height) {
+    const double zoom = std::min({1.0, double(width) / picture.width, double(height) / picture.height});
+    QImage out(std::max(int(picture.width * zoom), 1), std::max(int(picture.height * zoom), 1), QImage::Format_RGB32);
+    for (int y = 0; y < out.height(); ++y) {
+        for (int x = 0; x < out.width(); ++x) {
+            // Means over what falls into a pixel: single samples would show grain that the picture does not have.
+            const int x0 = x * picture.width / out.width();
+            const int x1 = std::max((x + 1) * picture.width / out.width(), x0 + 1);
+            const int y0 = y * picture.height / out.height();
+            const int y1 = std::max((y + 1) * picture.height / out.height(), y0 + 1);
+            vec3 sum(0.0F);
+            for (int v = y0; v < y1; ++v) {
+                for (int u = x0; u < x1; ++u) {
+                    sum += picture.pixels[std::size_t(v) * std::size_t(picture.width) + std::size_t(u)];
+                }
+            }
+            const vec3 c = display_color(sum / float((x1 - x0) * (y1 - y0)), exposure) * 255.0F + 0.5F;
+            out.setPixel(x, y, qRgb(int(c.r), int(c.g), int(c.b)));
+        }
+    }
+    return out;
 }
 
 } // namespace
@@ -59,6 +87,19 @@ ExportPictureDialog::ExportPictureDialog(Scene scene, std::shared_ptr<const Solu
     width_ = number(tr("Width"), 1920, 16, 16384, tr(" px"));
     height_ = number(tr("Height"), 1080, 16, 16384, tr(" px"));
     samples_ = number(tr("Samples per pixel side"), 2, 1, 8, {});
+    final_ = new QCheckBox(tr("Final pass: compute the light of every pixel"));
+    final_->setToolTip(tr("Contacts, folds and small things become as sharp as the picture. Takes minutes."));
+    final_->setEnabled(!scale_);
+    form->addRow(final_);
+    final_samples_ = number(tr("Samples per pixel"), 64, 1, 4096, {});
+    final_samples_->setToolTip(tr("Rounded up to a power of two. Four times as many halve the grain."));
+    final_samples_->setEnabled(false);
+    channels_ = new QCheckBox(tr("Also write parts of the light, depth, normals and colours (EXR)"));
+    form->addRow(channels_);
+    connect(final_, &QCheckBox::toggled, this, [this](bool on) {
+        final_samples_->setEnabled(on);
+        samples_->setEnabled(!on);
+    });
     layout->addLayout(form);
     auto* note = new QLabel(tr("PNG is shown as in the view; EXR holds linear values in cd/m\u00b2."));
     if (scale_) {
@@ -69,6 +110,11 @@ ExportPictureDialog::ExportPictureDialog(Scene scene, std::shared_ptr<const Solu
     }
     note->setEnabled(false);
     layout->addWidget(note);
+    preview_ = new QLabel;
+    preview_->setAlignment(Qt::AlignCenter);
+    preview_->setAccessibleName(tr("Preview"));
+    preview_->hide();
+    layout->addWidget(preview_);
     bar_ = new QProgressBar;
     bar_->setRange(0, 1000);
     bar_->setEnabled(false);
@@ -89,7 +135,20 @@ ExportPictureDialog::ExportPictureDialog(Scene scene, std::shared_ptr<const Solu
         }
     });
     poll_.setInterval(100);
-    connect(&poll_, &QTimer::timeout, this, [this] { bar_->setValue(int(fraction_->load() * 1000)); });
+    connect(&poll_, &QTimer::timeout, this, &ExportPictureDialog::show_progress);
+}
+
+void ExportPictureDialog::show_progress() {
+    bar_->setValue(int(fraction_->load() * 1000));
+    QImage image;
+    if (newest_) {
+        const std::lock_guard lock(newest_->mutex);
+        image.swap(newest_->image);
+    }
+    if (!image.isNull()) {
+        preview_->setPixmap(QPixmap::fromImage(image));
+        preview_->show();
+    }
 }
 
 ExportPictureDialog::~ExportPictureDialog() { stop_.request_stop(); }
@@ -117,6 +176,10 @@ void ExportPictureDialog::render(const QString& path) {
     options.height = int(height_->value());
     options.samples_per_axis = int(samples_->value());
     options.shares = shares_;
+    options.final_pass = final_->isEnabled() && final_->isChecked();
+    options.final_samples = int(final_samples_->value());
+    const bool channels = channels_->isChecked();
+    newest_ = std::make_shared<Preview>();
     RunContext context;
     stop_ = StopFlag();
     context.stop = stop_;
@@ -130,23 +193,37 @@ void ExportPictureDialog::render(const QString& path) {
     run_in_background(
         this,
         [scene = scene_, solution = solution_, camera = camera_, exposure = exposure_, scale = scale_, font = font(),
-         options, context, path]() -> Result<bool> {
+         options, channels, context, path, preview = newest_]() -> Result<bool> {
             const bool png = path.endsWith(QLatin1StringView(".png"), Qt::CaseInsensitive);
             const bool amounts = png && scale;
-            Picture picture = amounts ? render_false_color(scene, *solution, camera, options, *scale, context)
-                                      : render_still(scene, *solution, camera, options, context);
+            const float factor = exposure_scale(solution->mean_radiance, exposure);
+            Picture picture;
+            std::vector<PictureChannel> parts;
+            if (amounts) {
+                picture = render_false_color(scene, *solution, camera, options, *scale, context);
+            } else {
+                const StillLayers layers =
+                    render_layers(scene, *solution, camera, options, context, [&](const StillLayers& so_far) {
+                        QImage image = small_image(so_far.beauty(), factor, kPreviewWidth, kPreviewHeight);
+                        const std::lock_guard lock(preview->mutex);
+                        preview->image = std::move(image);
+                    });
+                picture = layers.beauty();
+                if (channels && !png) {
+                    parts = layers.channels();
+                }
+            }
             if (context.should_stop()) {
                 return false;
             }
             if (amounts) {
                 add_legend(picture, *scale, font);
             } else if (png) {
-                const float factor = exposure_scale(solution->mean_radiance, exposure);
                 for (vec3& pixel : picture.pixels) {
                     pixel = display_color(pixel, factor);
                 }
             }
-            if (auto done = write_picture(std::filesystem::path(path.toStdU16String()), picture); !done) {
+            if (auto done = write_picture(std::filesystem::path(path.toStdU16String()), picture, parts); !done) {
                 return tl::unexpected<Error>(done.error());
             }
             return true;
@@ -157,6 +234,7 @@ void ExportPictureDialog::render(const QString& path) {
             start_->setEnabled(true);
             bar_->setValue(0);
             bar_->setEnabled(false);
+            preview_->hide();
             if (!done) {
                 error_->setText(QString::fromStdString(done.error().message()));
                 error_->show();

@@ -4,12 +4,15 @@
 #include "engine/view/still.h"
 
 #include <QDialog>
+#include <QImage>
 #include <QTimer>
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <optional>
 
+class QCheckBox;
 class QLabel;
 class QProgressBar;
 class QPushButton;
@@ -34,7 +37,13 @@ Q_SIGNALS:
     void message(const QString& text);
 
 private:
+    /// The newest picture of a final pass, small and as it is shown; written by the pool, read by the timer.
+    struct Preview {
+        std::mutex mutex;
+        QImage image;
+    };
     void choose_file();
+    void show_progress();
     Scene scene_;
     std::shared_ptr<const Solution> solution_;
     ViewCamera camera_;
@@ -45,12 +54,17 @@ private:
     NumberField* width_ = nullptr;
     NumberField* height_ = nullptr;
     NumberField* samples_ = nullptr;
+    QCheckBox* final_ = nullptr;
+    NumberField* final_samples_ = nullptr;
+    QCheckBox* channels_ = nullptr;
+    QLabel* preview_ = nullptr; ///< of a final pass in the making
     QProgressBar* bar_ = nullptr;
     QLabel* error_ = nullptr;
     QPushButton* start_ = nullptr;
     QTimer poll_;
     StopFlag stop_;
     std::shared_ptr<std::atomic<double>> fraction_;
+    std::shared_ptr<Preview> newest_;
     bool running_ = false;
 };
 
