@@ -49,7 +49,7 @@
     </message>
     <message>
         <source>Go back to the file as it was saved; what was changed since is put aside</source>
-        <translation>Revenir au fichier tel qu&apos;il a été enregistré ; ce qui a changé depuis est mis de côté</translation>
+        <translation>Revenir au fichier tel qu&apos;il a été enregistré&#xa0;; ce qui a changé depuis est mis de côté</translation>
     </message>
     <message>
         <source>Recovered &amp;Work...</source>
@@ -57,7 +57,7 @@
     </message>
     <message>
         <source>Look at work that was not saved: kept after a crash, reverted or discarded</source>
-        <translation>Voir le travail non enregistré : gardé après un arrêt brutal, abandonné ou rejeté</translation>
+        <translation>Voir le travail non enregistré&#xa0;: gardé après un arrêt brutal, abandonné ou rejeté</translation>
     </message>
     <message>
         <source>&amp;Find Missing Images...</source>
@@ -193,7 +193,7 @@
     </message>
     <message>
         <source>Hide the selected objects; hidden objects take no part in the light</source>
-        <translation>Masquer les objets sélectionnés ; un objet masqué ne compte pas dans la lumière</translation>
+        <translation>Masquer les objets sélectionnés&#xa0;; un objet masqué ne compte pas dans la lumière</translation>
     </message>
     <message>
         <source>Sho&amp;w All</source>
@@ -209,7 +209,7 @@
     </message>
     <message>
         <source>Show only the selected objects, in the light of the whole scene; again to show everything</source>
-        <translation>N&apos;afficher que les objets sélectionnés, dans la lumière de toute la scène ; de nouveau pour tout afficher</translation>
+        <translation>N&apos;afficher que les objets sélectionnés, dans la lumière de toute la scène&#xa0;; de nouveau pour tout afficher</translation>
     </message>
     <message>
         <source>Loc&amp;k</source>
@@ -385,7 +385,7 @@
     </message>
     <message>
         <source>Move, turn and scale in steps and onto faces of other objects; Ctrl turns this round while dragging</source>
-        <translation>Déplacer, tourner et redimensionner par pas et contre les faces d&apos;autres objets ; Ctrl inverse cela pendant le geste</translation>
+        <translation>Déplacer, tourner et redimensionner par pas et contre les faces d&apos;autres objets&#xa0;; Ctrl inverse cela pendant le geste</translation>
     </message>
     <message>
         <source>Slide on S&amp;urfaces</source>
@@ -417,7 +417,7 @@
     </message>
     <message>
         <source>Read the light under the cursor; a click leaves a measuring point, a click on one removes it</source>
-        <translation>Lire la lumière sous le curseur ; un clic laisse un point de mesure, un clic sur un point l&apos;enlève</translation>
+        <translation>Lire la lumière sous le curseur&#xa0;; un clic laisse un point de mesure, un clic sur un point l&apos;enlève</translation>
     </message>
     <message>
         <source>Cop&amp;y Measuring Points</source>
@@ -457,7 +457,7 @@
     </message>
     <message>
         <source>Walk through the room: W A S D to go, mouse to look, Esc to leave</source>
-        <translation>Marcher dans la pièce : W A S D pour avancer, la souris pour regarder, Échap pour quitter</translation>
+        <translation>Marcher dans la pièce&#xa0;: W A S D pour avancer, la souris pour regarder, Échap pour quitter</translation>
     </message>
     <message>
         <source>&amp;Orbit about Selection</source>
@@ -537,11 +537,11 @@
     </message>
     <message>
         <source>Draw every particle where it landed on the selected objects; takes memory while it is on</source>
-        <translation>Dessiner chaque particule là où elle a touché les objets sélectionnés ; prend de la mémoire tant que c&apos;est actif</translation>
+        <translation>Dessiner chaque particule là où elle a touché les objets sélectionnés&#xa0;; prend de la mémoire tant que c&apos;est actif</translation>
     </message>
     <message>
         <source>&amp;Flat: One Value per Face</source>
-        <translation>&amp;Aplat : une valeur par face</translation>
+        <translation>&amp;Aplat&#xa0;: une valeur par face</translation>
     </message>
     <message>
         <source>Show every face of the mesh in the mean of its light</source>
@@ -577,7 +577,7 @@
     </message>
     <message>
         <source>List every surface that caustics fall on: what was decided, why, and what can be set by hand</source>
-        <translation>Lister chaque surface qui reçoit des caustiques : ce qui a été décidé, pourquoi, et ce qui peut être réglé à la main</translation>
+        <translation>Lister chaque surface qui reçoit des caustiques&#xa0;: ce qui a été décidé, pourquoi, et ce qui peut être réglé à la main</translation>
     </message>
     <message>
         <source>C&amp;onvergence</source>
@@ -665,7 +665,7 @@
     </message>
     <message>
         <source>Stop computing light; the last picture stays</source>
-        <translation>Arrêter le calcul de la lumière ; la dernière image reste</translation>
+        <translation>Arrêter le calcul de la lumière&#xa0;; la dernière image reste</translation>
     </message>
     <message>
         <source>&amp;Resume</source>
@@ -698,6 +698,70 @@
     <message>
         <source>Version and licence</source>
         <translation>Version et licence</translation>
+    </message>
+    <message>
+        <source>&amp;Element Mesh</source>
+        <translation>Maillage des &amp;éléments</translation>
+    </message>
+    <message>
+        <source>Draw the borders of the elements that light is computed with: of the selection, or of everything where nothing is selected</source>
+        <translation>Tracer les bords des éléments avec lesquels la lumière est calculée : ceux de la sélection, ou tous si rien n&apos;est sélectionné</translation>
+    </message>
+    <message>
+        <source>&amp;Links of an Element</source>
+        <translation>&amp;Liens d&apos;un élément</translation>
+    </message>
+    <message>
+        <source>Click a surface to see which other elements light its element, and how much each of them brings</source>
+        <translation>Cliquer sur une surface pour voir quels autres éléments éclairent le sien, et combien chacun apporte</translation>
+    </message>
+    <message>
+        <source>&amp;Subdivision Level</source>
+        <translation>Niveau de &amp;subdivision</translation>
+    </message>
+    <message>
+        <source>Show in false colour how often surfaces were divided into elements</source>
+        <translation>Montrer en fausses couleurs combien de fois les surfaces ont été divisées en éléments</translation>
+    </message>
+    <message>
+        <source>Link &amp;Density</source>
+        <translation>&amp;Densité des liens</translation>
+    </message>
+    <message>
+        <source>Show in false colour how many links elements have in each square metre</source>
+        <translation>Montrer en fausses couleurs combien de liens les éléments ont par mètre carré</translation>
+    </message>
+    <message>
+        <source>&amp;Ways of Particles</source>
+        <translation>&amp;Trajets des particules</translation>
+    </message>
+    <message>
+        <source>Draw some hundred particles of the selection on their way over mirrors and glass; of everything where nothing is selected</source>
+        <translation>Tracer quelques centaines de particules de la sélection sur leur trajet par les miroirs et les verres ; de toute la scène si rien n&apos;est sélectionné</translation>
+    </message>
+    <message>
+        <source>Last &amp;Update</source>
+        <translation>Dernière &amp;mise à jour</translation>
+    </message>
+    <message>
+        <source>Mark for some seconds the texels, vertices and caustic textures that the last update of the light changed</source>
+        <translation>Marquer quelques secondes les texels, sommets et textures de caustiques changés par la dernière mise à jour de la lumière</translation>
+    </message>
+    <message>
+        <source>E&amp;rror Estimate</source>
+        <translation>Estimation de l&apos;e&amp;rreur</translation>
+    </message>
+    <message>
+        <source>Measure how far off the light is at some hundred places, and show in false colour what follows for all others</source>
+        <translation>Mesurer l&apos;écart de la lumière en quelques centaines de points, et montrer en fausses couleurs ce qui en découle partout ailleurs</translation>
+    </message>
+    <message>
+        <source>&amp;Histogram</source>
+        <translation>&amp;Histogramme</translation>
+    </message>
+    <message>
+        <source>Show beside the legend in false colour how often amounts occur: on the selection, or on everything where nothing is selected</source>
+        <translation>Montrer à côté de la légende des fausses couleurs la fréquence des valeurs : sur la sélection, ou partout si rien n&apos;est sélectionné</translation>
     </message>
 </context>
 <context>
@@ -772,15 +836,15 @@
     </message>
     <message>
         <source>set by hand to the mesh; found: %1</source>
-        <translation>réglé à la main sur le maillage ; trouvé : %1</translation>
+        <translation>réglé à la main sur le maillage&#xa0;; trouvé&#xa0;: %1</translation>
     </message>
     <message>
         <source>set by hand to a texture; found: %1</source>
-        <translation>réglé à la main sur une texture ; trouvé : %1</translation>
+        <translation>réglé à la main sur une texture&#xa0;; trouvé&#xa0;: %1</translation>
     </message>
     <message>
         <source>set by hand to a texture, which cannot be: %1</source>
-        <translation>réglé à la main sur une texture, ce qui ne se peut pas : %1</translation>
+        <translation>réglé à la main sur une texture, ce qui ne se peut pas&#xa0;: %1</translation>
     </message>
     <message>
         <source>Half as wide as narrow kernels</source>
@@ -788,7 +852,7 @@
     </message>
     <message>
         <source>A quarter of the mesh; kernels are wide</source>
-        <translation>Un quart du maillage ; les noyaux sont larges</translation>
+        <translation>Un quart du maillage&#xa0;; les noyaux sont larges</translation>
     </message>
     <message>
         <source>About one particle a texel</source>
@@ -848,7 +912,7 @@
     </message>
     <message>
         <source>: %1 of the scene&apos;s light</source>
-        <translation> : %1 de la lumière de la scène</translation>
+        <translation>&#xa0;: %1 de la lumière de la scène</translation>
     </message>
     <message>
         <source>%1 mm</source>
@@ -864,7 +928,7 @@
     </message>
     <message>
         <source>%1 %</source>
-        <translation>%1 %</translation>
+        <translation>%1&#xa0;%</translation>
     </message>
 </context>
 <context>
@@ -891,7 +955,7 @@
     </message>
     <message>
         <source>Cancel the drag or the typing; leave walk mode</source>
-        <translation>Annuler le geste ou la saisie ; quitter la marche</translation>
+        <translation>Annuler le geste ou la saisie&#xa0;; quitter la marche</translation>
     </message>
     <message>
         <source>Enter</source>
@@ -907,7 +971,7 @@
     </message>
     <message>
         <source>Change the number in the focused field; Shift is finer</source>
-        <translation>Changer le nombre du champ actif ; Maj pour plus de finesse</translation>
+        <translation>Changer le nombre du champ actif&#xa0;; Maj pour plus de finesse</translation>
     </message>
     <message>
         <source>About Atrium</source>
@@ -917,9 +981,158 @@
         <source>Interiors with live global illumination: hierarchical radiosity that follows every edit.
 
 Free software; the licence is in the file LICENSE.</source>
-        <translation>Des intérieurs à l&apos;illumination globale en direct : une radiosité hiérarchique qui suit chaque modification.
+        <translation>Des intérieurs à l&apos;illumination globale en direct&#xa0;: une radiosité hiérarchique qui suit chaque modification.
 
-Logiciel libre ; la licence est dans le fichier LICENSE.</translation>
+Logiciel libre&#xa0;; la licence est dans le fichier LICENSE.</translation>
+    </message>
+</context>
+<context>
+    <name>Inspection</name>
+    <message>
+        <source>an object without a name</source>
+        <translation>un objet sans nom</translation>
+    </message>
+    <message>
+        <source>%1 m²</source>
+        <translation>%1 m²</translation>
+    </message>
+    <message>
+        <source>%1 cm²</source>
+        <translation>%1 cm²</translation>
+    </message>
+    <message>
+        <source>Element of %1: small faces, %2</source>
+        <translation>Élément de %1 : petites faces, %2</translation>
+    </message>
+    <message>
+        <source>Element of %1: level %2, %3</source>
+        <translation>Élément de %1 : niveau %2, %3</translation>
+    </message>
+    <message>
+        <source>%1 links bring %2 lx of %3 lx (%4 %)</source>
+        <translation>%1 liens apportent %2 lx sur %3 lx (%4 %)</translation>
+    </message>
+    <message>
+        <source>Straight from lamps, sun and sky %1 lx, over mirrors and glass %2 lx</source>
+        <translation>Directement des lampes, du soleil et du ciel %1 lx, par les miroirs et les verres %2 lx</translation>
+    </message>
+    <message>
+        <source>Strongest link: %1, %2 lx (%3 % of all links)</source>
+        <translation>Lien le plus fort : %1, %2 lx (%3 % de tous les liens)</translation>
+    </message>
+    <message>
+        <source>Link under the cursor: %1, %2 lx (%3 %)</source>
+        <translation>Lien sous le curseur : %1, %2 lx (%3 %)</translation>
+    </message>
+    <message>
+        <source>No particles: no light that stands out goes over a mirror or glass</source>
+        <translation>Pas de particules : aucune lumière marquante ne passe par un miroir ou un verre</translation>
+    </message>
+    <message>
+        <source>No particles landed on the selection or went over it</source>
+        <translation>Aucune particule n&apos;est arrivée sur la sélection ni passée par elle</translation>
+    </message>
+    <message>
+        <source>Ways of %1 particles of the selection, of %2 in all</source>
+        <translation>Trajets de %1 particules de la sélection, sur %2 en tout</translation>
+    </message>
+    <message>
+        <source>Ways of %1 particles, of %2 in all</source>
+        <translation>Trajets de %1 particules, sur %2 en tout</translation>
+    </message>
+    <message>
+        <source>Blue to red: %1 to %2 lm each</source>
+        <translation>Du bleu au rouge : de %1 à %2 lm chacune</translation>
+    </message>
+    <message>
+        <source>Passage octree: %1 cells</source>
+        <translation>Octree de passage : %1 cellules</translation>
+    </message>
+    <message>
+        <source>Passage octree: none, touched particles are found by a scan</source>
+        <translation>Octree de passage : aucun, les particules touchées sont trouvées par un parcours</translation>
+    </message>
+    <message>
+        <source>Last update, %1 ms, changed:</source>
+        <translation>Dernière mise à jour, %1 ms, a changé :</translation>
+    </message>
+    <message>
+        <source>%1 of %2 texels (red)</source>
+        <translation>%1 texels sur %2 (rouge)</translation>
+    </message>
+    <message>
+        <source>%1 of %2 vertices (blue)</source>
+        <translation>%1 sommets sur %2 (bleu)</translation>
+    </message>
+    <message>
+        <source>%1 of %2 caustic textures (pink)</source>
+        <translation>%1 textures de caustiques sur %2 (rose)</translation>
+    </message>
+    <message>
+        <source>Elements and links come with the complete light</source>
+        <translation>Les éléments et les liens viennent avec la lumière complète</translation>
+    </message>
+    <message>
+        <source>%1 elements</source>
+        <translation>%1 éléments</translation>
+    </message>
+    <message>
+        <source>%1 elements of the selection</source>
+        <translation>%1 éléments de la sélection</translation>
+    </message>
+    <message>
+        <source>Click a surface to see the links of its element</source>
+        <translation>Cliquer sur une surface pour voir les liens de son élément</translation>
+    </message>
+    <message>
+        <source>Measuring the error ...</source>
+        <translation>Mesure de l&apos;erreur ...</translation>
+    </message>
+    <message>
+        <source>Likely error (rms) from %1 measured places, %2 % over all</source>
+        <translation>Erreur probable (quadratique moyenne) d&apos;après %1 points mesurés, %2 % sur l&apos;ensemble</translation>
+    </message>
+    <message>
+        <source>Every place: from the %1 most like it, by position, direction and light</source>
+        <translation>Chaque point : d&apos;après les %1 qui lui ressemblent le plus, par position, orientation et lumière</translation>
+    </message>
+    <message>
+        <source>The error is measured when the light is complete</source>
+        <translation>L&apos;erreur est mesurée quand la lumière est complète</translation>
+    </message>
+    <message>
+        <source>The histogram stands beside the legend of illuminance (F6) and luminance (F7)</source>
+        <translation>L&apos;histogramme se trouve à côté de la légende de l&apos;éclairement (F6) et de la luminance (F7)</translation>
+    </message>
+    <message>
+        <source>All surfaces: mean %1 %2, median %3, nine tenths between %4 and %5</source>
+        <translation>Toutes les surfaces : moyenne %1 %2, médiane %3, neuf dixièmes entre %4 et %5</translation>
+    </message>
+    <message>
+        <source>Selection: mean %1 %2, median %3, nine tenths between %4 and %5</source>
+        <translation>Sélection : moyenne %1 %2, médiane %3, neuf dixièmes entre %4 et %5</translation>
+    </message>
+    <message>
+        <source>Move something to see what the update changes</source>
+        <translation>Déplacer quelque chose pour voir ce que la mise à jour change</translation>
+    </message>
+    <message>
+        <source>Error
+%</source>
+        <translation>Erreur
+%</translation>
+    </message>
+    <message>
+        <source>Subdivision
+level</source>
+        <translation>Niveau de
+subdivision</translation>
+    </message>
+    <message>
+        <source>Link density
+1/m²</source>
+        <translation>Densité des liens
+1/m²</translation>
     </message>
 </context>
 <context>
@@ -1113,7 +1326,7 @@ Logiciel libre ; la licence est dans le fichier LICENSE.</translation>
     </message>
     <message>
         <source>Brushed aluminium, 75 %</source>
-        <translation>Aluminium brossé, 75 %</translation>
+        <translation>Aluminium brossé, 75&#xa0;%</translation>
     </message>
     <message>
         <source>Scatters what it reflects</source>
@@ -1121,27 +1334,27 @@ Logiciel libre ; la licence est dans le fichier LICENSE.</translation>
     </message>
     <message>
         <source>Brushed stainless steel, 58 %</source>
-        <translation>Inox brossé, 58 %</translation>
+        <translation>Inox brossé, 58&#xa0;%</translation>
     </message>
     <message>
         <source>Polished chrome, 65 %</source>
-        <translation>Chrome poli, 65 %</translation>
+        <translation>Chrome poli, 65&#xa0;%</translation>
     </message>
     <message>
         <source>Reflects like a mirror; throws caustics</source>
-        <translation>Réfléchit comme un miroir ; projette des caustiques</translation>
+        <translation>Réfléchit comme un miroir&#xa0;; projette des caustiques</translation>
     </message>
     <message>
         <source>Polished brass, 72 %</source>
-        <translation>Laiton poli, 72 %</translation>
+        <translation>Laiton poli, 72&#xa0;%</translation>
     </message>
     <message>
         <source>Polished copper, 68 %</source>
-        <translation>Cuivre poli, 68 %</translation>
+        <translation>Cuivre poli, 68&#xa0;%</translation>
     </message>
     <message>
         <source>Mirror, 90 %</source>
-        <translation>Miroir, 90 %</translation>
+        <translation>Miroir, 90&#xa0;%</translation>
     </message>
     <message>
         <source>Silvered glass</source>
@@ -1153,7 +1366,7 @@ Logiciel libre ; la licence est dans le fichier LICENSE.</translation>
     </message>
     <message>
         <source>Float glass as a thin pane: lets some 90 % through</source>
-        <translation>Verre flotté en vitre mince : laisse passer environ 90 %</translation>
+        <translation>Verre flotté en vitre mince&#xa0;: laisse passer environ 90&#xa0;%</translation>
     </message>
     <message>
         <source>Clear glass, solid</source>
@@ -1161,7 +1374,7 @@ Logiciel libre ; la licence est dans le fichier LICENSE.</translation>
     </message>
     <message>
         <source>For closed bodies: bends light and throws caustics</source>
-        <translation>Pour des corps fermés : dévie la lumière et projette des caustiques</translation>
+        <translation>Pour des corps fermés&#xa0;: dévie la lumière et projette des caustiques</translation>
     </message>
     <message>
         <source>Frosted glass, pane</source>
@@ -1169,7 +1382,7 @@ Logiciel libre ; la licence est dans le fichier LICENSE.</translation>
     </message>
     <message>
         <source>Acid-etched: lets light through and scatters it</source>
-        <translation>Dépoli à l&apos;acide : laisse passer la lumière et la disperse</translation>
+        <translation>Dépoli à l&apos;acide&#xa0;: laisse passer la lumière et la disperse</translation>
     </message>
     <message>
         <source>Lamp shade</source>
@@ -1293,7 +1506,7 @@ Logiciel libre ; la licence est dans le fichier LICENSE.</translation>
     </message>
     <message>
         <source>Narrow beam for pictures and accents; turn it with the rotate tool</source>
-        <translation>Faisceau étroit pour tableaux et accents ; à orienter avec l&apos;outil de rotation</translation>
+        <translation>Faisceau étroit pour tableaux et accents&#xa0;; à orienter avec l&apos;outil de rotation</translation>
     </message>
     <message>
         <source>Linear light, 3600 lm, 4000 K</source>
@@ -1368,7 +1581,7 @@ Logiciel libre ; la licence est dans le fichier LICENSE.</translation>
     </message>
     <message>
         <source>direct %1 %, diffuse %2 %, caustics %3 %</source>
-        <translation>directe %1 %, diffuse %2 %, caustiques %3 %</translation>
+        <translation>directe %1&#xa0;%, diffuse %2&#xa0;%, caustiques %3&#xa0;%</translation>
     </message>
 </context>
 <context>
@@ -1433,31 +1646,31 @@ Logiciel libre ; la licence est dans le fichier LICENSE.</translation>
     </message>
     <message>
         <source>Hu&amp;e:</source>
-        <translation>&amp;Teinte :</translation>
+        <translation>&amp;Teinte&#xa0;:</translation>
     </message>
     <message>
         <source>&amp;Sat:</source>
-        <translation>&amp;Sat. :</translation>
+        <translation>&amp;Sat.&#xa0;:</translation>
     </message>
     <message>
         <source>&amp;Val:</source>
-        <translation>&amp;Val. :</translation>
+        <translation>&amp;Val.&#xa0;:</translation>
     </message>
     <message>
         <source>&amp;Red:</source>
-        <translation>&amp;Rouge :</translation>
+        <translation>&amp;Rouge&#xa0;:</translation>
     </message>
     <message>
         <source>&amp;Green:</source>
-        <translation>&amp;Vert :</translation>
+        <translation>&amp;Vert&#xa0;:</translation>
     </message>
     <message>
         <source>Bl&amp;ue:</source>
-        <translation>Bl&amp;eu :</translation>
+        <translation>Bl&amp;eu&#xa0;:</translation>
     </message>
     <message>
         <source>&amp;HTML:</source>
-        <translation>&amp;HTML :</translation>
+        <translation>&amp;HTML&#xa0;:</translation>
     </message>
 </context>
 <context>
@@ -1471,15 +1684,15 @@ Logiciel libre ; la licence est dans le fichier LICENSE.</translation>
     <name>QFileDialog</name>
     <message>
         <source>Look in:</source>
-        <translation>Regarder dans :</translation>
+        <translation>Regarder dans&#xa0;:</translation>
     </message>
     <message>
         <source>File &amp;name:</source>
-        <translation>&amp;Nom du fichier :</translation>
+        <translation>&amp;Nom du fichier&#xa0;:</translation>
     </message>
     <message>
         <source>Files of type:</source>
-        <translation>Fichiers de type :</translation>
+        <translation>Fichiers de type&#xa0;:</translation>
     </message>
     <message>
         <source>Back</source>
@@ -1519,7 +1732,7 @@ Logiciel libre ; la licence est dans le fichier LICENSE.</translation>
     </message>
     <message>
         <source>Directory:</source>
-        <translation>Dossier :</translation>
+        <translation>Dossier&#xa0;:</translation>
     </message>
     <message>
         <source>All Files (*)</source>
@@ -1557,7 +1770,7 @@ Logiciel libre ; la licence est dans le fichier LICENSE.</translation>
         <source>%1 already exists.
 Do you want to replace it?</source>
         <translation>%1 existe déjà.
-Voulez-vous le remplacer ?</translation>
+Voulez-vous le remplacer&#xa0;?</translation>
     </message>
     <message>
         <source>%1
@@ -1610,7 +1823,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>%1 %</source>
-        <translation>%1 %</translation>
+        <translation>%1&#xa0;%</translation>
     </message>
     <message>
         <source>%1 lm</source>
@@ -1630,7 +1843,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>%1: the picture could not be written</source>
-        <translation>%1 : l&apos;image n&apos;a pas pu être écrite</translation>
+        <translation>%1&#xa0;: l&apos;image n&apos;a pas pu être écrite</translation>
     </message>
     <message>
         <source>Edit interiors with live global illumination.</source>
@@ -1638,7 +1851,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>scene to open: .gltf, .glb or .atrium</source>
-        <translation>scène à ouvrir : .gltf, .glb ou .atrium</translation>
+        <translation>scène à ouvrir&#xa0;: .gltf, .glb ou .atrium</translation>
     </message>
     <message>
         <source>open, wait for the light, save a picture of the window, quit</source>
@@ -1662,15 +1875,19 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>bring a panel to the front: library, tree, properties, jobs, problems, caustics, convergence; none puts all away</source>
-        <translation>mettre un panneau au premier plan : library, tree, properties, jobs, problems, caustics, convergence ; none les range tous</translation>
+        <translation>mettre un panneau au premier plan&#xa0;: library, tree, properties, jobs, problems, caustics, convergence&#xa0;; none les range tous</translation>
     </message>
     <message>
         <source>run a command of the menus by its name (caustic_boxes, wireframe, ...) once the file is open; may be repeated</source>
-        <translation>exécuter une commande des menus par son nom (caustic_boxes, wireframe, ...) une fois le fichier ouvert ; peut se répéter</translation>
+        <translation>exécuter une commande des menus par son nom (caustic_boxes, wireframe, ...) une fois le fichier ouvert&#xa0;; peut se répéter</translation>
     </message>
     <message>
         <source>with --screenshot: put a measuring point at this place of the view, in shares of its width and height; may be repeated</source>
-        <translation>avec --screenshot : poser un point de mesure à cet endroit de la vue, en fractions de sa largeur et de sa hauteur ; peut se répéter</translation>
+        <translation>avec --screenshot&#xa0;: poser un point de mesure à cet endroit de la vue, en fractions de sa largeur et de sa hauteur&#xa0;; peut se répéter</translation>
+    </message>
+    <message>
+        <source>with --screenshot and --command element_links: show the links of the element at this place of the view, in shares of its width and height</source>
+        <translation>avec --screenshot et --command element_links : montrer les liens de l&apos;élément à cet endroit de la vue, en parts de sa largeur et de sa hauteur</translation>
     </message>
 </context>
 <context>
@@ -1826,7 +2043,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>The selection is locked: unlock it to change its place</source>
-        <translation>La sélection est verrouillée : déverrouillez-la pour la déplacer</translation>
+        <translation>La sélection est verrouillée&#xa0;: déverrouillez-la pour la déplacer</translation>
     </message>
     <message>
         <source>Cancelled</source>
@@ -1952,7 +2169,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>%1, covering %2; %3</source>
-        <translation>%1, couvrant %2 ; %3</translation>
+        <translation>%1, couvrant %2&#xa0;; %3</translation>
     </message>
     <message>
         <source>Light</source>
@@ -1979,7 +2196,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Wheel: zoom. Drag: shift. Double click: all boxes, then the whole piece.</source>
-        <translation>Molette : zoom. Glisser : décaler. Double clic : tous les cadres, puis le morceau entier.</translation>
+        <translation>Molette&#xa0;: zoom. Glisser&#xa0;: décaler. Double clic&#xa0;: tous les cadres, puis le morceau entier.</translation>
     </message>
     <message>
         <source>Making the picture...</source>
@@ -1987,11 +2204,11 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>No texture: all of it is on the mesh</source>
-        <translation>Pas de texture : tout est sur le maillage</translation>
+        <translation>Pas de texture&#xa0;: tout est sur le maillage</translation>
     </message>
     <message>
         <source>%1 m, %2 m: %3 lx in textures</source>
-        <translation>%1 m, %2 m : %3 lx en textures</translation>
+        <translation>%1 m, %2 m&#xa0;: %3 lx en textures</translation>
     </message>
     <message>
         <source>1 texel = %1 pixels</source>
@@ -2073,7 +2290,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Where the caustic light is kept: in textures or on the corners of the mesh</source>
-        <translation>Où la lumière des caustiques est gardée : dans des textures ou aux sommets du maillage</translation>
+        <translation>Où la lumière des caustiques est gardée&#xa0;: dans des textures ou aux sommets du maillage</translation>
     </message>
     <message>
         <source>Why</source>
@@ -2113,7 +2330,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Width of the spot that a particle&apos;s light is spread over, across its narrow side; the median</source>
-        <translation>Largeur de la tache sur laquelle la lumière d&apos;une particule est étalée, dans son côté étroit ; la médiane</translation>
+        <translation>Largeur de la tache sur laquelle la lumière d&apos;une particule est étalée, dans son côté étroit&#xa0;; la médiane</translation>
     </message>
     <message>
         <source>Boxes</source>
@@ -2121,7 +2338,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Restriction boxes: the textures cover no more than these</source>
-        <translation>Cadres de restriction : les textures ne couvrent pas plus</translation>
+        <translation>Cadres de restriction&#xa0;: les textures ne couvrent pas plus</translation>
     </message>
     <message>
         <source>Covered</source>
@@ -2199,7 +2416,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>%1 for %2, %3 %</source>
-        <translation>%1 pour %2, %3 %</translation>
+        <translation>%1 pour %2, %3&#xa0;%</translation>
     </message>
     <message>
         <source>No light yet</source>
@@ -2238,7 +2455,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>error, %</source>
-        <translation>erreur, %</translation>
+        <translation>erreur,&#xa0;%</translation>
     </message>
     <message>
         <source>updates</source>
@@ -2261,7 +2478,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Add a sun and a uniform sky; one step to undo</source>
-        <translation>Ajouter un soleil et un ciel uniforme ; une étape à annuler</translation>
+        <translation>Ajouter un soleil et un ciel uniforme&#xa0;; une étape à annuler</translation>
     </message>
     <message>
         <source>&amp;Not Now</source>
@@ -2279,7 +2496,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>The selection is locked: unlock it to cut it.</source>
-        <translation>La sélection est verrouillée : déverrouillez-la pour la couper.</translation>
+        <translation>La sélection est verrouillée&#xa0;: déverrouillez-la pour la couper.</translation>
     </message>
     <message>
         <source>Cut</source>
@@ -2448,15 +2665,15 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>PNG is shown as in the view; EXR holds linear values in cd/m².</source>
-        <translation>Le PNG est comme dans la vue ; l&apos;EXR contient des valeurs linéaires en cd/m².</translation>
+        <translation>Le PNG est comme dans la vue&#xa0;; l&apos;EXR contient des valeurs linéaires en cd/m².</translation>
     </message>
     <message>
         <source>PNG is in false colour as in the view, with its legend; EXR holds linear values in cd/m².</source>
-        <translation>Le PNG est en fausses couleurs comme dans la vue, avec sa légende ; l&apos;EXR contient des valeurs linéaires en cd/m².</translation>
+        <translation>Le PNG est en fausses couleurs comme dans la vue, avec sa légende&#xa0;; l&apos;EXR contient des valeurs linéaires en cd/m².</translation>
     </message>
     <message>
         <source>Light as in the view: only %1.</source>
-        <translation>Lumière comme dans la vue : seulement %1.</translation>
+        <translation>Lumière comme dans la vue&#xa0;: seulement %1.</translation>
     </message>
     <message>
         <source>Render...</source>
@@ -2469,6 +2686,30 @@ Vérifiez que le nom du fichier est correct.</translation>
     <message>
         <source>Picture written to %1.</source>
         <translation>Image écrite dans %1.</translation>
+    </message>
+    <message>
+        <source>Final pass: compute the light of every pixel</source>
+        <translation>Passe finale : calculer la lumière de chaque pixel</translation>
+    </message>
+    <message>
+        <source>Contacts, folds and small things become as sharp as the picture. Takes minutes.</source>
+        <translation>Les contacts, les plis et les petits objets deviennent aussi nets que l&apos;image. Prend des minutes.</translation>
+    </message>
+    <message>
+        <source>Samples per pixel</source>
+        <translation>Échantillons par pixel</translation>
+    </message>
+    <message>
+        <source>Rounded up to a power of two. Four times as many halve the grain.</source>
+        <translation>Arrondi à la puissance de deux supérieure. Quatre fois plus divisent le grain par deux.</translation>
+    </message>
+    <message>
+        <source>Also write parts of the light, depth, normals and colours (EXR)</source>
+        <translation>Écrire aussi les parts de la lumière, la profondeur, les normales et les couleurs (EXR)</translation>
+    </message>
+    <message>
+        <source>Preview</source>
+        <translation>Aperçu</translation>
     </message>
 </context>
 <context>
@@ -2487,7 +2728,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Even steps of light, or even factors: for rooms with sun and shade</source>
-        <translation>Pas égaux de lumière, ou facteurs égaux : pour des pièces avec soleil et ombre</translation>
+        <translation>Pas égaux de lumière, ou facteurs égaux&#xa0;: pour des pièces avec soleil et ombre</translation>
     </message>
     <message>
         <source>Automatic range</source>
@@ -2495,7 +2736,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Fit the range to the light of the scene; it stays while you move things</source>
-        <translation>Ajuster la plage à la lumière de la scène ; elle reste pendant que vous déplacez des objets</translation>
+        <translation>Ajuster la plage à la lumière de la scène&#xa0;; elle reste pendant que vous déplacez des objets</translation>
     </message>
     <message>
         <source>Lower end of the range</source>
@@ -2522,11 +2763,11 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>File: %1</source>
-        <translation>Fichier : %1</translation>
+        <translation>Fichier&#xa0;: %1</translation>
     </message>
     <message>
         <source>Place: %1</source>
-        <translation>Endroit : %1</translation>
+        <translation>Endroit&#xa0;: %1</translation>
     </message>
     <message>
         <source>Untitled</source>
@@ -2634,8 +2875,8 @@ Vérifiez que le nom du fichier est correct.</translation>
     <message numerus="yes">
         <source>%n image(s) found; none is missing.</source>
         <translation>
-            <numerusform>%n image trouvée ; il n&apos;en manque aucune.</numerusform>
-            <numerusform>%n images trouvées ; il n&apos;en manque aucune.</numerusform>
+            <numerusform>%n image trouvée&#xa0;; il n&apos;en manque aucune.</numerusform>
+            <numerusform>%n images trouvées&#xa0;; il n&apos;en manque aucune.</numerusform>
         </translation>
     </message>
     <message numerus="yes">
@@ -2666,11 +2907,11 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Go back to %1 as it was saved?</source>
-        <translation>Revenir à %1 tel qu&apos;il a été enregistré ?</translation>
+        <translation>Revenir à %1 tel qu&apos;il a été enregistré&#xa0;?</translation>
     </message>
     <message>
         <source>It was saved on %1. What was changed since can be had back for two weeks: File &gt; Recovered Work.</source>
-        <translation>Il a été enregistré le %1. Ce qui a changé depuis peut être repris pendant deux semaines : Fichier &gt; Travail récupéré.</translation>
+        <translation>Il a été enregistré le %1. Ce qui a changé depuis peut être repris pendant deux semaines&#xa0;: Fichier &gt; Travail récupéré.</translation>
     </message>
     <message>
         <source>what would be lost could not be put aside first</source>
@@ -2739,7 +2980,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Still saving; try again in a moment.</source>
-        <translation>Enregistrement en cours ; réessayez dans un instant.</translation>
+        <translation>Enregistrement en cours&#xa0;; réessayez dans un instant.</translation>
     </message>
     <message>
         <source>it is open in another Atrium (%1)</source>
@@ -2767,11 +3008,11 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Save the changes to %1?</source>
-        <translation>Enregistrer les modifications de %1 ?</translation>
+        <translation>Enregistrer les modifications de %1&#xa0;?</translation>
     </message>
     <message>
         <source>What is discarded can be had back for two weeks: File &gt; Recovered Work.</source>
-        <translation>Ce qui n&apos;est pas enregistré peut être repris pendant deux semaines : Fichier &gt; Travail récupéré.</translation>
+        <translation>Ce qui n&apos;est pas enregistré peut être repris pendant deux semaines&#xa0;: Fichier &gt; Travail récupéré.</translation>
     </message>
 </context>
 <context>
@@ -2786,7 +3027,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Put everything into a group that corrects this; one step to undo</source>
-        <translation>Tout mettre dans un groupe qui corrige cela ; une étape à annuler</translation>
+        <translation>Tout mettre dans un groupe qui corrige cela&#xa0;; une étape à annuler</translation>
     </message>
     <message>
         <source>&amp;Keep</source>
@@ -2829,7 +3070,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     <name>atrium::ui::JobsPanel</name>
     <message>
         <source>Solving %1 %</source>
-        <translation>Calcul %1 %</translation>
+        <translation>Calcul %1&#xa0;%</translation>
     </message>
     <message>
         <source>Light follows</source>
@@ -2837,11 +3078,11 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Settling %1 %</source>
-        <translation>Stabilisation %1 %</translation>
+        <translation>Stabilisation %1&#xa0;%</translation>
     </message>
     <message>
         <source>Settled, refining %1 %</source>
-        <translation>Stabilisé, affinage %1 %</translation>
+        <translation>Stabilisé, affinage %1&#xa0;%</translation>
     </message>
     <message>
         <source>Light up to date</source>
@@ -2901,7 +3142,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Root mean square over all surfaces, measured at %L1 places against brute force; it lies between the bounds 95 times in 100.</source>
-        <translation>Moyenne quadratique sur toutes les surfaces, mesurée en %L1 endroits contre la force brute ; elle est entre les bornes 95 fois sur 100.</translation>
+        <translation>Moyenne quadratique sur toutes les surfaces, mesurée en %L1 endroits contre la force brute&#xa0;; elle est entre les bornes 95 fois sur 100.</translation>
     </message>
     <message>
         <source>Error of the mean</source>
@@ -3075,7 +3316,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Choose a folder with glTF models (.glb, .gltf): they appear here, ready to be dragged into the room.</source>
-        <translation>Choisissez un dossier de modèles glTF (.glb, .gltf) : ils apparaissent ici, prêts à être glissés dans la pièce.</translation>
+        <translation>Choisissez un dossier de modèles glTF (.glb, .gltf)&#xa0;: ils apparaissent ici, prêts à être glissés dans la pièce.</translation>
     </message>
     <message>
         <source>%1 is being loaded...</source>
@@ -3176,7 +3417,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>%1: %2</source>
-        <translation>%1 : %2</translation>
+        <translation>%1&#xa0;: %2</translation>
     </message>
     <message>
         <source>&amp;Undo</source>
@@ -3244,7 +3485,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>How drags snap: Edit &gt; Snapping. Click to change it.</source>
-        <translation>Comment les gestes s&apos;alignent : Édition &gt; Magnétisme. Cliquer pour le changer.</translation>
+        <translation>Comment les gestes s&apos;alignent&#xa0;: Édition &gt; Magnétisme. Cliquer pour le changer.</translation>
     </message>
     <message>
         <source>Snapping</source>
@@ -3264,7 +3505,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>The scene has no camera. Add one from the present view: Add &gt; Camera.</source>
-        <translation>La scène n&apos;a pas de caméra. Ajoutez-en une depuis la vue actuelle : Ajout &gt; Caméra.</translation>
+        <translation>La scène n&apos;a pas de caméra. Ajoutez-en une depuis la vue actuelle&#xa0;: Ajout &gt; Caméra.</translation>
     </message>
     <message>
         <source>Save &amp;As...</source>
@@ -3276,7 +3517,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Autosave failed; what is unsaved is in this window only. %1</source>
-        <translation>La sauvegarde automatique a échoué ; ce qui n&apos;est pas enregistré n&apos;est que dans cette fenêtre. %1</translation>
+        <translation>La sauvegarde automatique a échoué&#xa0;; ce qui n&apos;est pas enregistré n&apos;est que dans cette fenêtre. %1</translation>
     </message>
     <message>
         <source>&amp;Find...</source>
@@ -3285,8 +3526,8 @@ Vérifiez que le nom du fichier est correct.</translation>
     <message numerus="yes">
         <source>%n image(s) of this scene were not found; surfaces that use them show their plain colour.</source>
         <translation>
-            <numerusform>%n image de cette scène n&apos;a pas été trouvée ; les surfaces qui l&apos;utilisent montrent leur couleur unie.</numerusform>
-            <numerusform>%n images de cette scène n&apos;ont pas été trouvées ; les surfaces qui les utilisent montrent leur couleur unie.</numerusform>
+            <numerusform>%n image de cette scène n&apos;a pas été trouvée&#xa0;; les surfaces qui l&apos;utilisent montrent leur couleur unie.</numerusform>
+            <numerusform>%n images de cette scène n&apos;ont pas été trouvées&#xa0;; les surfaces qui les utilisent montrent leur couleur unie.</numerusform>
         </translation>
     </message>
     <message>
@@ -3375,11 +3616,11 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Shown: only %1.</source>
-        <translation>Affiché : seulement %1.</translation>
+        <translation>Affiché&#xa0;: seulement %1.</translation>
     </message>
     <message>
         <source>There are no measuring points yet: choose Measure Light and click on a surface.</source>
-        <translation>Il n&apos;y a pas encore de point de mesure : choisissez Mesurer la lumière et cliquez sur une surface.</translation>
+        <translation>Il n&apos;y a pas encore de point de mesure&#xa0;: choisissez Mesurer la lumière et cliquez sur une surface.</translation>
     </message>
     <message numerus="yes">
         <source>%n measuring point(s) copied.</source>
@@ -3387,6 +3628,10 @@ Vérifiez que le nom du fichier est correct.</translation>
             <numerusform>%n point de mesure copié.</numerusform>
             <numerusform>%n points de mesure copiés.</numerusform>
         </translation>
+    </message>
+    <message>
+        <source>O&amp;verlays</source>
+        <translation>&amp;Superpositions</translation>
     </message>
 </context>
 <context>
@@ -3429,7 +3674,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source> %</source>
-        <translation> %</translation>
+        <translation>&#xa0;%</translation>
     </message>
     <message>
         <source>Reflectance</source>
@@ -3469,7 +3714,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>%1: %2</source>
-        <translation>%1 : %2</translation>
+        <translation>%1&#xa0;: %2</translation>
     </message>
     <message>
         <source>default</source>
@@ -3485,11 +3730,11 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>No material of its own: white, reflectance 80 %.</source>
-        <translation>Pas de matériau propre : blanc, réflectance 80 %.</translation>
+        <translation>Pas de matériau propre&#xa0;: blanc, réflectance 80&#xa0;%.</translation>
     </message>
     <message>
         <source>Shared by %1 parts; changes reach all of them.</source>
-        <translation>Partagé par %1 parties ; les changements les atteignent toutes.</translation>
+        <translation>Partagé par %1 parties&#xa0;; les changements les atteignent toutes.</translation>
     </message>
     <message>
         <source>%1 materials are changed together.</source>
@@ -3557,11 +3802,26 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Not changed: %1.</source>
-        <translation>Non changé : %1.</translation>
+        <translation>Non changé&#xa0;: %1.</translation>
     </message>
     <message>
         <source>Not changed: the value must lie between %1 and %2.</source>
-        <translation>Non changé : la valeur doit être entre %1 et %2.</translation>
+        <translation>Non changé&#xa0;: la valeur doit être entre %1 et %2.</translation>
+    </message>
+</context>
+<context>
+    <name>atrium::ui::OverlayController</name>
+    <message>
+        <source>No light has been computed yet.</source>
+        <translation>Aucune lumière n&apos;a encore été calculée.</translation>
+    </message>
+    <message>
+        <source>This light was read from the project, which does not keep elements and links. It can be looked into after the next change of the scene.</source>
+        <translation>Cette lumière a été lue dans le projet, qui ne garde ni éléments ni liens. On pourra l&apos;examiner après la prochaine modification de la scène.</translation>
+    </message>
+    <message>
+        <source>The light is still being computed; its elements can be looked at when it is complete.</source>
+        <translation>La lumière est encore en cours de calcul ; on pourra voir ses éléments quand elle sera complète.</translation>
     </message>
 </context>
 <context>
@@ -3647,7 +3907,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>%1: %2</source>
-        <translation>%1 : %2</translation>
+        <translation>%1&#xa0;: %2</translation>
     </message>
 </context>
 <context>
@@ -3677,7 +3937,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Luminous intensity over directions; straight down is at the bottom</source>
-        <translation>Intensité lumineuse selon la direction ; le bas est vers le bas</translation>
+        <translation>Intensité lumineuse selon la direction&#xa0;; le bas est vers le bas</translation>
     </message>
     <message>
         <source>ring %1 cd</source>
@@ -3700,7 +3960,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>&amp;Language:</source>
-        <translation>&amp;Langue :</translation>
+        <translation>&amp;Langue&#xa0;:</translation>
     </message>
     <message numerus="yes">
         <source>%n second(s) after a change</source>
@@ -3718,7 +3978,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Keep &amp;unsaved work:</source>
-        <translation>Garder le travail &amp;non enregistré :</translation>
+        <translation>Garder le travail &amp;non enregistré&#xa0;:</translation>
     </message>
     <message>
         <source>Another language shows when Atrium is started again.</source>
@@ -3763,7 +4023,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Work that was not saved: kept after a crash, or given up in the last two weeks.</source>
-        <translation>Travail non enregistré : gardé après un arrêt brutal, ou abandonné ces deux dernières semaines.</translation>
+        <translation>Travail non enregistré&#xa0;: gardé après un arrêt brutal, ou abandonné ces deux dernières semaines.</translation>
     </message>
     <message>
         <source>Untitled</source>
@@ -3812,22 +4072,22 @@ Vérifiez que le nom du fichier est correct.</translation>
     <message>
         <source>Saved: %1
 %2</source>
-        <translation>Enregistré : %1
+        <translation>Enregistré&#xa0;: %1
 %2</translation>
     </message>
     <message>
         <source>Saved: never</source>
-        <translation>Enregistré : jamais</translation>
+        <translation>Enregistré&#xa0;: jamais</translation>
     </message>
     <message>
         <source>Saved: the file is gone
 %1</source>
-        <translation>Enregistré : le fichier a disparu
+        <translation>Enregistré&#xa0;: le fichier a disparu
 %1</translation>
     </message>
     <message>
         <source>Recovered: %1</source>
-        <translation>Récupéré : %1</translation>
+        <translation>Récupéré&#xa0;: %1</translation>
     </message>
     <message>
         <source>Drawing...</source>
@@ -3847,15 +4107,15 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Changed in the recovered work: %1</source>
-        <translation>Changé dans le travail récupéré : %1</translation>
+        <translation>Changé dans le travail récupéré&#xa0;: %1</translation>
     </message>
     <message>
         <source>Only in the recovered work: %1</source>
-        <translation>Seulement dans le travail récupéré : %1</translation>
+        <translation>Seulement dans le travail récupéré&#xa0;: %1</translation>
     </message>
     <message>
         <source>Only in the saved file: %1</source>
-        <translation>Seulement dans le fichier enregistré : %1</translation>
+        <translation>Seulement dans le fichier enregistré&#xa0;: %1</translation>
     </message>
 </context>
 <context>
@@ -4054,11 +4314,11 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Mesh: %1 triangles, %2 part(s)</source>
-        <translation>Maillage : %1 triangles, %2 partie(s)</translation>
+        <translation>Maillage&#xa0;: %1 triangles, %2 partie(s)</translation>
     </message>
     <message>
         <source>Polygon: %1 corners, %2 hole(s)</source>
-        <translation>Polygone : %1 sommets, %2 trou(s)</translation>
+        <translation>Polygone&#xa0;: %1 sommets, %2 trou(s)</translation>
     </message>
     <message>
         <source>, shared by %1 objects</source>
@@ -4108,7 +4368,7 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Walk: W A S D to go, drag to look, Q E lower or raise the eye, Shift faster, Esc leaves</source>
-        <translation>Marche : W A S D pour avancer, glisser pour regarder, Q E pour baisser ou lever l&apos;œil, Maj plus vite, Échap quitte</translation>
+        <translation>Marche&#xa0;: W A S D pour avancer, glisser pour regarder, Q E pour baisser ou lever l&apos;œil, Maj plus vite, Échap quitte</translation>
     </message>
     <message>
         <source>There is no surface in the middle of the view.</source>
@@ -4136,11 +4396,11 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message>
         <source>Only the selection is shown; its light is that of the whole scene.</source>
-        <translation>Seule la sélection est affichée ; sa lumière est celle de toute la scène.</translation>
+        <translation>Seule la sélection est affichée&#xa0;; sa lumière est celle de toute la scène.</translation>
     </message>
     <message>
         <source>The 3D view needs OpenGL 3.3. Update the graphics driver, or start with software rendering: LIBGL_ALWAYS_SOFTWARE=1</source>
-        <translation>La vue 3D a besoin d&apos;OpenGL 3.3. Mettez à jour le pilote graphique, ou démarrez en rendu logiciel : LIBGL_ALWAYS_SOFTWARE=1</translation>
+        <translation>La vue 3D a besoin d&apos;OpenGL 3.3. Mettez à jour le pilote graphique, ou démarrez en rendu logiciel&#xa0;: LIBGL_ALWAYS_SOFTWARE=1</translation>
     </message>
 </context>
 </TS>
