@@ -12,6 +12,7 @@ with SIGKILL (half of the times inside a save or an autosave) and then holds aga
 The worst loss is printed: edits, and milliseconds of work, that neither file holds. Exit status 1 when anything was wrong.
 """
 import argparse
+import ctypes
 import json
 import os
 import pathlib
@@ -24,6 +25,11 @@ import sys
 import tempfile
 import time
 import zlib
+
+def end_with_parent():
+    """In the child: it is killed when this script ends, however that comes (prctl PR_SET_PDEATHSIG)."""
+    ctypes.CDLL(None).prctl(1, signal.SIGKILL)
+
 
 TURN_MS = 250  # a turn of the event loop on a busy machine that is not counted as lateness
 
@@ -105,7 +111,7 @@ class Round:
         if recover:
             arguments.append("--recover")
         old = set(self.recovery.glob("*.atrium"))
-        process = subprocess.Popen(arguments, stderr=subprocess.PIPE)
+        process = subprocess.Popen(arguments, stderr=subprocess.PIPE, preexec_fn=end_with_parent)
         inside = self.wait(process)
         process.send_signal(signal.SIGKILL)
         process.wait()

@@ -222,7 +222,8 @@ TEST_F(Measuring, ExportedPicturesHaveTheColoursAndTheLegendOfTheView) {
     auto* settings = dialog<ExportPictureDialog>();
     ASSERT_NE(settings, nullptr);
     const auto fields = settings->findChildren<NumberField*>();
-    ASSERT_EQ(fields.size(), 3);
+    ASSERT_EQ(fields.size(), 4);
+    EXPECT_FALSE(settings->findChild<QCheckBox*>()->isEnabled()) << "false colour shows the layers, not a final pass";
     type(fields[0], "320");
     type(fields[1], "200");
     type(fields[2], "1");

@@ -2,12 +2,17 @@
 
 #include <QApplication>
 #include <QMouseEvent>
+#include <QSettings>
 
 #include <cmath>
 
 namespace atrium::ui {
 
 void WindowTest::SetUp() {
+    if (first_window_) {
+        QSettings().clear(); // what an earlier test left on, such as false colour, is not remembered
+        first_window_ = false;
+    }
     window = std::make_unique<MainWindow>(folder.filePath(QStringLiteral("recovery")));
     window->resize(1300, 820);
     window->show();

@@ -46,6 +46,9 @@ protected:
 
     QTemporaryDir folder;
     std::unique_ptr<MainWindow> window;
+
+private:
+    bool first_window_ = true; ///< of the test: TearDown() and SetUp() within one are another run of the program
 };
 
 } // namespace atrium::ui

@@ -24,8 +24,7 @@ bool PictureRenderer::initialize(Gl& gl) {
     outline_ = load_program("outline.vert", "outline.frag");
     overlay_ = load_program("overlay.vert", "overlay.frag");
     plate_ = load_program("plate.vert", "plate.frag");
-    if (!gpu_.initialize(gl) || !figures_.initialize(gl) || !specular_.initialize(gl) || !outline_ || !overlay_ ||
-        !plate_) {
+    if (!gpu_.initialize(gl) || !figures_.initialize(gl) || !specular_.initialize(gl) || !outline_ || !overlay_ || !plate_) {
         return false;
     }
     gl.glGenVertexArrays(1, &empty_array_);
