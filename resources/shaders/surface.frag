@@ -9,8 +9,8 @@ in vec3 v_normal;
 in vec2 v_base_uv;
 in vec2 v_emissive_uv;
 in vec3 v_color;
-in vec3 v_front;
-in vec3 v_back;
+centroid in vec3 v_front; // off its triangle light between a bright and a dark vertex would run over
+centroid in vec3 v_back;
 #if defined(LIGHT_MAP) || defined(CAUSTICS)
 centroid in vec2 v_light_uv; // tiles
 flat in float v_charted;

@@ -25,8 +25,8 @@ out vec3 v_normal;
 out vec2 v_base_uv;
 out vec2 v_emissive_uv;
 out vec3 v_color;
-out vec3 v_front;
-out vec3 v_back;
+centroid out vec3 v_front;
+centroid out vec3 v_back;
 centroid out vec2 v_light_uv; // never off the triangle, where another chart's tiles may lie
 flat out float v_charted;     // 1 where the triangle has a place in the light map
 
