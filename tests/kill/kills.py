@@ -171,18 +171,20 @@ class Round:
             in_recovery = edit_in(left)
         if kept and max(in_recovery, in_project) < kept[-1]:
             self.wrong.append(f"edit {kept[-1]} was kept, and only {max(in_recovery, in_project)} is there")
-        # 3: an autosave is seen in every stretch of an interval with unsaved edits, unless one is still being written
-        waiting_since, writing, late = None, False, 0
+        # 3: an autosave is seen in every stretch of an interval with unsaved edits, unless one, or the project, is being written
+        waiting_since, writing, saving, late = None, False, False, 0
         for k, n, t in lines:
             if k == "W":
                 writing, waiting_since = True, None
             elif k == "V":
                 writing = False
+            elif k == "B":
+                saving = True
             elif k == "S":
-                waiting_since = None
+                waiting_since, saving = None, False
             elif k == "E" and waiting_since is None:
                 waiting_since, late = t, 0
-            elif k == "E" and not writing and t - waiting_since > self.options.interval:
+            elif k == "E" and not writing and not saving and t - waiting_since > self.options.interval:
                 late += 1  # a turn of the event loop each; milliseconds say nothing on a busy machine
                 if late > LATE_TURNS:
                     self.wrong.append(f"no autosave {late} edits after its time, {t - waiting_since} ms (edit {n})")
