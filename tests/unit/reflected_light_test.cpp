@@ -62,26 +62,37 @@ TEST(IndirectGather, UniformRadiosityGivesThatIrradiance) {
     EXPECT_LT(sample.variance, 1e-6F);
 }
 
+/// A room of radiosity 1 with a panel of one square metre under its ceiling whose radiosity is 50.
+struct PanelRoom {
+    static Scene with_panel() {
+        Scene scene = room(0.5F);
+        add_rectangle(scene, "panel", {2, 2.4, 1.5}, {0, -1, 0}, {1, 0, 0}, 1, 1, add_material(scene, 0.5F));
+        return scene;
+    }
+    RayScene rays{with_panel()};
+    Hierarchy h = build_hierarchy(rays, {});
+    LeafFlags bright = LeafFlags(h.elements.size(), 0); ///< the panel
+
+    PanelRoom() {
+        for (std::size_t i = 0; i < h.elements.size(); ++i) {
+            Element& e = h.elements[i];
+            const bool panel = e.leaf() && std::abs(e.area - 1.0F) < 1e-3F;
+            bright[i] = panel ? 1 : 0;
+            e.radiosity = Rgb(panel ? 50.0F : 1.0F);
+        }
+        h.pull_radiosity();
+    }
+};
+
 // A bright panel gathered by name and the same panel found by rays: two estimates of one integral.
 TEST(IndirectGather, WhatIsGatheredByNameIsNotGatheredTwice) {
-    Scene scene = room(0.5F);
-    add_rectangle(scene, "panel", {2, 2.4, 1.5}, {0, -1, 0}, {1, 0, 0}, 1, 1, add_material(scene, 0.5F));
-    const RayScene rays(scene);
-    Hierarchy h = build_hierarchy(rays, {});
-    LeafFlags bright(h.elements.size(), 0);
-    for (std::size_t i = 0; i < h.elements.size(); ++i) {
-        Element& e = h.elements[i];
-        const bool panel = e.leaf() && std::abs(e.area - 1.0F) < 1e-3F;
-        bright[i] = panel ? 1 : 0;
-        e.radiosity = Rgb(panel ? 50.0F : 1.0F);
-    }
-    h.pull_radiosity();
+    const PanelRoom panel;
     IndirectSettings many;
     many.rays = many.max_rays = 4096;
     many.bright.tolerance = 1e-4F;
-    const IndirectGather by_rays(h, rays, LeafFlags(h.elements.size(), 0));
-    const IndirectGather by_name(h, rays, bright);
-    const vec3 p = vec3(dvec3(1.2, 0, 1.1) - rays.origin());
+    const IndirectGather by_rays(panel.h, panel.rays, LeafFlags(panel.h.elements.size(), 0));
+    const IndirectGather by_name(panel.h, panel.rays, panel.bright);
+    const vec3 p = vec3(dvec3(1.2, 0, 1.1) - panel.rays.origin());
     const FieldSample a = by_rays.irradiance(p, {0, 1, 0}, many);
     const FieldSample b = by_name.irradiance(p, {0, 1, 0}, many);
     EXPECT_GT(a.irradiance.r, 2.0F);
@@ -92,25 +103,14 @@ TEST(IndirectGather, WhatIsGatheredByNameIsNotGatheredTwice) {
 
 // Beside a spot that stands out its mean says too little: rays look at it, and it is still counted once.
 TEST(IndirectGather, SpotsThatAreTooNearAreLeftToTheRays) {
-    Scene scene = room(0.5F);
-    add_rectangle(scene, "panel", {2, 2.4, 1.5}, {0, -1, 0}, {1, 0, 0}, 1, 1, add_material(scene, 0.5F));
-    const RayScene rays(scene);
-    Hierarchy h = build_hierarchy(rays, {});
-    LeafFlags bright(h.elements.size(), 0);
-    for (std::size_t i = 0; i < h.elements.size(); ++i) {
-        Element& e = h.elements[i];
-        const bool panel = e.leaf() && std::abs(e.area - 1.0F) < 1e-3F;
-        bright[i] = panel ? 1 : 0;
-        e.radiosity = Rgb(panel ? 50.0F : 1.0F);
-    }
-    h.pull_radiosity();
+    const PanelRoom panel;
     IndirectSettings settings;
     settings.rays = settings.max_rays = 1024;
     settings.bright.nearest = 1.5F; // of the panel's radius of 0.71 m
-    const IndirectGather by_rays(h, rays, LeafFlags(h.elements.size(), 0));
-    const IndirectGather by_name(h, rays, bright);
+    const IndirectGather by_rays(panel.h, panel.rays, LeafFlags(panel.h.elements.size(), 0));
+    const IndirectGather by_name(panel.h, panel.rays, panel.bright);
     const auto both = [&](double y) {
-        const vec3 p = vec3(dvec3(2.1, y, 1.4) - rays.origin());
+        const vec3 p = vec3(dvec3(2.1, y, 1.4) - panel.rays.origin());
         return std::pair(by_rays.irradiance(p, {0, 1, 0}, settings).irradiance.r,
                          by_name.irradiance(p, {0, 1, 0}, settings).irradiance.r);
     };
