@@ -39,6 +39,17 @@ std::vector<vec3> cosine_directions() {
     return out;
 }
 
+// Numbers of a further ray that are independent of the first one's, to which the same index belongs: dimensions of their own,
+// then an order of their own (Burley 2020). The first two dimensions scrambled anew would not do: strata stay strata, and
+// every further direction would follow from the first.
+vec2 further_sample(std::uint32_t index, unsigned bounce) {
+    if (bounce == 0) {
+        return sobol_owen2(index, 2, kSeed);
+    }
+    const std::uint32_t seed = kBounceSeed + bounce;
+    return sobol_owen2(reverse_bits(owen_scramble_reversed(reverse_bits(index), seed * 0x85EBCA6BU)), 0, seed);
+}
+
 vec3 turned(const vec3& local, const vec3& normal) {
     vec3 t;
     vec3 b;
@@ -103,7 +114,7 @@ Rgb IndirectGather::sent_back(const Hit& hit, const Element& e, float travelled,
     if (travelled < settings.near * e.radius && bounce < settings.most_bounces && max_component(e.rho) > 0.0F) {
         // The direction belongs to that of the first ray: neighbours err alike.
         const vec3 normal = hit.front ? hit.geometric_normal : -hit.geometric_normal;
-        const vec2 u = sobol_owen2(index, 0, kBounceSeed + bounce);
+        const vec2 u = further_sample(index, bounce);
         float distance = 0.0F;
         const Rgb reflected = along(hit_position(rays_, hit) + normal * offset_, turned(cosine_direction(u), normal), index,
                                     settings, bounce + 1, distance);

@@ -174,6 +174,37 @@ TEST(IndirectGather, NarrowPlacesAreAsDarkAsTheyAreThoughLeavesAreLarge) {
     EXPECT_LT(left_of_means, 0.1 * (by_means - right));
 }
 
+// A floor that is white on one side only, under a point that looks down on its middle: the rays that find it white are half of
+// all, and their further rays have to look everywhere all the same, wherever the light comes from.
+TEST(IndirectGather, FurtherRaysDoNotFollowFromTheFirst) {
+    constexpr float kWhite = 0.8F;
+    for (const auto& [x, z] : {std::pair(-1.0, -1.0), {-1.0, 1.0}, {1.0, -1.0}, {1.0, 1.0}}) {
+        Scene scene;
+        add_rectangle(scene, "black", {-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 4, 2, add_material(scene, 0.0F));
+        add_rectangle(scene, "white", {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 4, 2, add_material(scene, kWhite));
+        add_rectangle(scene, "lamp", {x, 1.2, z}, {0, -1, 0}, {0, 0, 1}, 1, 1, add_material(scene, 0.0F, 1000.0F));
+        const RayScene rays(scene);
+        HierarchySettings coarse;
+        coarse.smallest_patch = 8.0F;
+        Hierarchy h = build_hierarchy(rays, coarse);
+        for (Element& e : h.elements) {
+            e.radiosity = e.leaf() ? e.emitted : Rgb(0.0F);
+        }
+        h.pull_radiosity();
+        const IndirectGather gather(h, rays, LeafFlags(h.elements.size(), 0));
+        IndirectSettings settings;
+        settings.rays = settings.max_rays = 4096;
+        const vec3 p = vec3(dvec3(0, 0.02, 0) - rays.origin());
+        const float floor = gather.irradiance(p, {0, 1, 0}, settings).irradiance.r; // alike below the point within 2 %
+        settings.near = 1.0F;
+        const float found = gather.irradiance(p, {0, -1, 0}, settings).irradiance.r;
+        EXPECT_GT(floor, 30.0F);
+        const float hits = 0.5F * float(settings.rays) * floor / 1000.0F; // further rays that find the lamp
+        const float expected = 0.5F * kWhite * floor;
+        EXPECT_NEAR(found, expected, 3.0F / std::sqrt(hits) * expected) << "lamp over " << x << ", " << z;
+    }
+}
+
 std::vector<SurfacePoint> floor_points(const RayScene& rays, int n, double x0, double x1) {
     std::vector<SurfacePoint> points;
     for (int i = 0; i < n; ++i) {
