@@ -25,8 +25,9 @@ AuditSettings audit_settings(SolverSettings::Quality quality);
 
 /// Reads `solution` at random places of the diffuse surfaces of `scene`, gaps that nobody looks into left out, and compares
 /// it with the reference there, whose own noise is taken out. As many paths as tell the error from that noise, at most
-/// settings.most_paths. The bounds are those of a bootstrap over the places. The same figures for any number of threads. An
-/// error where no surface scatters light that light can reach, or when stopped.
+/// settings.most_paths, and eight times as many at the few places that are far off what is usual. The bounds are those of a
+/// bootstrap over the places. The same figures for any number of threads. An error where no surface scatters light that
+/// light can reach, or when stopped.
 Result<ErrorAudit> audit_error(const Scene& scene, const Solution& solution, const AuditSettings& settings,
                                const RunContext& context);
 

@@ -39,9 +39,9 @@ std::vector<vec3> cosine_directions() {
     return out;
 }
 
-// Numbers of a further ray that are independent of the first one's, to which the same index belongs: dimensions of their own,
-// then an order of their own (Burley 2020). The first two dimensions scrambled anew would not do: strata stay strata, and
-// every further direction would follow from the first.
+// Numbers of a further ray that are independent of the first one's, to which the same index belongs: dimensions of their
+// own, then an order of their own (Burley 2020). The first two dimensions scrambled anew would not do: strata stay strata,
+// and every further direction would follow from the first.
 vec2 further_sample(std::uint32_t index, unsigned bounce) {
     if (bounce == 0) {
         return sobol_owen2(index, 2, kSeed);

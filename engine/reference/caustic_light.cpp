@@ -15,23 +15,18 @@ void follow(const LightTracer& tracer, const CausticBatch& batch, const RunConte
 
 } // namespace
 
-std::vector<Rgb> caustic_light_on(std::span<const CausticDisc> discs, float radius, const RayScene& rays,
-                                  const LightTracer& tracer, const CausticBatch& batch, const RunContext& context) {
+std::vector<Rgb> caustic_light_on(const DiscTree& tree, const RayScene& rays, const LightTracer& tracer,
+                                  const CausticBatch& batch, const RunContext& context) {
+    const std::span<const CausticDisc> discs = tree.discs();
+    const double area = kPiD * double(tree.radius()) * double(tree.radius());
     std::vector<dvec3> crossed(discs.size(), dvec3(0.0)); // lumen
     std::vector<dvec3> seen(discs.size(), dvec3(0.0));    // lux
+    std::vector<std::uint32_t> met;
     std::uint64_t landings = 0;
     const auto cross = [&](const CausticLeg& leg) {
-        for (std::size_t i = 0; i < discs.size(); ++i) {
-            const float down = glm::dot(leg.direction, discs[i].normal);
-            const vec3 to = discs[i].centre - leg.from;
-            const float t = glm::dot(to, discs[i].normal) / down;
-            if (!(down < 0.0F) || !(t >= 0.0F) || !(t <= leg.length)) {
-                continue;
-            }
-            const vec3 off = leg.direction * t - to;
-            if (glm::dot(off, off) <= radius * radius) {
-                crossed[i] += dvec3(leg.flux);
-            }
+        tree.crossed(leg.from, leg.direction, leg.length, met);
+        for (const std::uint32_t i : met) {
+            crossed[i] += dvec3(leg.flux);
         }
     };
     const auto look = [&](const CausticLeg& leg) {
@@ -58,8 +53,7 @@ std::vector<Rgb> caustic_light_on(std::span<const CausticDisc> discs, float radi
     });
     std::vector<Rgb> out;
     for (std::size_t i = 0; i < discs.size(); ++i) {
-        const dvec3 lux = crossed[i] / (kPiD * double(radius) * double(radius)) + seen[i];
-        out.emplace_back(lux / double(batch.count));
+        out.emplace_back((crossed[i] / area + seen[i]) / double(batch.count));
     }
     return out;
 }

@@ -2,17 +2,10 @@
 #pragma once
 
 #include "engine/base/run_context.h"
+#include "engine/reference/disc_tree.h"
 #include "engine/reference/light_tracer.h"
 
-#include <span>
-
 namespace atrium {
-
-/// A small disc that counts the particles that cross it from its front.
-struct CausticDisc {
-    vec3 centre{0.0F};
-    vec3 normal{0.0F}; ///< unit
-};
 
 /// Particles [first, first + count) of a stream.
 struct CausticBatch {
@@ -25,8 +18,8 @@ struct CausticBatch {
 /// becomes over further bounces. Light that comes over mirrors and glass last is a mean over the disc. Light that a matt
 /// surface sends straight is that at its middle: wherever particles are scattered, one disc picked at random is looked at.
 /// Stopped, it returns soon, and nothing of use.
-std::vector<Rgb> caustic_light_on(std::span<const CausticDisc> discs, float radius, const RayScene& rays,
-                                  const LightTracer& tracer, const CausticBatch& batch, const RunContext& context);
+std::vector<Rgb> caustic_light_on(const DiscTree& discs, const RayScene& rays, const LightTracer& tracer,
+                                  const CausticBatch& batch, const RunContext& context);
 
 /// Where the particles of one stream landed. Immutable once built; safe from any thread.
 class CausticMap {

@@ -1,5 +1,6 @@
 #include "engine/reference/light_tracer.h"
 
+#include "engine/base/parallel.h"
 #include "engine/base/rng.h"
 #include "engine/reference/surface_event.h"
 
@@ -8,8 +9,13 @@
 namespace atrium {
 namespace {
 
-constexpr float kRouletteBelow = 0.25F; // share of its first flux from which a particle may end
-constexpr int kLongWay = 64;            // hits from which it may end whatever it carries
+constexpr float kRouletteBelow = 0.25F;      // share of its first flux from which a particle may end
+constexpr int kLongWay = 64;                 // hits from which it may end whatever it carries
+constexpr std::uint64_t kTrials = 1U << 15U; // of each look at where it is worth to start
+constexpr std::uint64_t kLooksAtStarts = 3;  // each with what the one before found
+constexpr std::uint64_t kLooksForPlaces = 7; // until they close in on a few small discs
+constexpr std::size_t kFewPlaces = 64;
+constexpr float kNear = 4.0F; // radii: within, one landing is as good as another
 
 vec3 cosine_direction(const vec3& n, float u, float v) {
     vec3 t;
@@ -32,9 +38,17 @@ struct LightTracer::Numbers {
         const float b = next();
         return {a, b, next()};
     }
+    double next_fine() { return double(hash64(key + 0x9E3779B97F4A7C15ULL * ++count) >> 11) * 0x1p-53; }
+    dvec4 next4() {
+        const double a = next_fine();
+        const double b = next_fine();
+        const double c = next_fine();
+        return {a, b, c, next_fine()};
+    }
 };
 
-LightTracer::LightTracer(const RayScene& rays, const PathLights& lights, Emitters emitters)
+LightTracer::LightTracer(const RayScene& rays, const PathLights& lights, Emitters emitters, std::span<const vec3> places,
+                         float radius)
     : rays_(rays), lights_(lights), aim_(rays) {
     if (aim_.empty()) {
         return;
@@ -50,12 +64,49 @@ LightTracer::LightTracer(const RayScene& rays, const PathLights& lights, Emitter
         Numbers numbers{hash64(i)};
         constexpr int kLooks = 64;
         for (int k = 0; k < kLooks; ++k) {
-            found += double(luminance(from_lamp(source, numbers).flux)) / kLooks;
+            found += double(luminance(from_lamp(source, numbers.next3()).flux)) / kLooks;
         }
         const double open = double(lamp.light.intensity * luminance(lamp.light.color) * aim_.solid_angle(lamp.position));
         add(source, std::max(found, 0.01 * open));
     }
     add_emitters(emitters);
+    learn(places, radius);
+}
+
+void LightTracer::learn(std::span<const vec3> places, float radius) {
+    if (sources_.empty()) {
+        return;
+    }
+    const bool few = !places.empty() && places.size() <= kFewPlaces;
+    const auto worth = [&](const vec3& landing) {
+        float least = std::numeric_limits<float>::infinity();
+        for (const vec3& place : places) {
+            const vec3 d = landing - place;
+            least = std::min(least, glm::dot(d, d));
+        }
+        return 1.0F / (least + kNear * kNear * radius * radius);
+    };
+    std::vector<StartGuide::Trial> trials; // of all looks
+    for (std::uint64_t look = 0; look < (few ? kLooksForPlaces : kLooksAtStarts); ++look) {
+        const std::size_t before = trials.size();
+        trials.resize(before + kTrials);
+        parallel_chunks(kTrials, 256, [&](std::size_t from, std::size_t to, std::size_t) {
+            for (std::size_t i = before + from; i < before + to; ++i) {
+                Numbers numbers{hash_combine(0x6E1DULL, i)};
+                const StartGuide::Start at = guide_(numbers.next4());
+                trials[i].at = at.at;
+                trials[i].density = at.density;
+                // The first place where it lands is enough: what it scatters there is light for everybody.
+                follow(start(at, numbers), numbers, false, [&](const CausticLeg& leg) {
+                    if (leg.lands) {
+                        trials[i].use += at.density * max_component(leg.flux) *
+                                         (few ? worth(leg.from + leg.direction * leg.length) : 1.0F);
+                    }
+                });
+            }
+        });
+        guide_ = StartGuide(trials);
+    }
 }
 
 void LightTracer::add(const Source& source, double weight) {
@@ -79,22 +130,22 @@ void LightTracer::add_emitters(Emitters emitters) {
     }
 }
 
-LightTracer::Start LightTracer::from_sun(const Source& source, Numbers& numbers) const {
+LightTracer::Start LightTracer::from_sun(const Source& source, const vec3& aim, Numbers& numbers) const {
     const PathLights::Sun& sun = lights_.suns()[source.index];
     const float u = numbers.next();
     const vec3 direction = -sun.sample({u, numbers.next()});
-    const Aim::Origin at = aim_.of_beam(direction, numbers.next3());
+    const Aim::Origin at = aim_.of_beam(direction, aim);
     return {{at.origin, direction}, sun.normal_irradiance * (sun.weight() / at.density)};
 }
 
-LightTracer::Start LightTracer::from_lamp(const Source& source, Numbers& numbers) const {
+LightTracer::Start LightTracer::from_lamp(const Source& source, const vec3& aim) const {
     const PathLights::Lamp& lamp = lights_.lamps()[source.index];
-    const Aim::Direction to = aim_.from_point(lamp.position, numbers.next3());
+    const Aim::Direction to = aim_.from_point(lamp.position, aim);
     return {{lamp.position, to.direction},
             to.density > 0.0F ? lamp.light.color * (lamp.candela(to.direction) / to.density) : Rgb(0.0F)};
 }
 
-LightTracer::Start LightTracer::from_emitter(const Source& source, Numbers& numbers) const {
+LightTracer::Start LightTracer::from_emitter(const Source& source, const vec3& aim, Numbers& numbers) const {
     const auto p = rays_.triangle(source.index, source.triangle);
     const vec3 across = glm::cross(p[1] - p[0], p[2] - p[0]);
     const float area = 0.5F * glm::length(across);
@@ -102,7 +153,7 @@ LightTracer::Start LightTracer::from_emitter(const Source& source, Numbers& numb
     const float v = numbers.next();
     const vec2 barycentric(root * (1.0F - v), root * v);
     const vec3 position = p[0] + (p[1] - p[0]) * barycentric.x + (p[2] - p[0]) * barycentric.y;
-    const Aim::Direction to = aim_.from_point(position, numbers.next3());
+    const Aim::Direction to = aim_.from_point(position, aim);
     const vec3 normal = across / (2.0F * area);
     const float cosine = glm::dot(to.direction, normal);
     const Material& m = rays_.material(source.index);
@@ -119,16 +170,18 @@ LightTracer::Start LightTracer::from_emitter(const Source& source, Numbers& numb
             radiance * (std::abs(cosine) * area / to.density)};
 }
 
-LightTracer::Start LightTracer::start(Numbers& numbers) const {
-    const double at = double(numbers.next()) * cumulative_.back();
+LightTracer::Start LightTracer::start(const StartGuide::Start& from, Numbers& numbers) const {
+    const double at = from.at.x * cumulative_.back();
     const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), at);
     const auto index = std::min(std::size_t(found - cumulative_.begin()), sources_.size() - 1);
     const double own = cumulative_[index] - (index > 0 ? cumulative_[index - 1] : 0.0);
     const Source& source = sources_[index];
-    Start out = source.kind == Source::Kind::Sun    ? from_sun(source, numbers)
-                : source.kind == Source::Kind::Lamp ? from_lamp(source, numbers)
-                                                    : from_emitter(source, numbers);
-    out.flux *= float(cumulative_.back() / own);
+    // Not quite 1, to which a number just below it is rounded.
+    const vec3 aim = glm::min(vec3(dvec3(from.at.y, from.at.z, from.at.w)), vec3(1.0F - 0x1p-24F));
+    Start out = source.kind == Source::Kind::Sun    ? from_sun(source, aim, numbers)
+                : source.kind == Source::Kind::Lamp ? from_lamp(source, aim)
+                                                    : from_emitter(source, aim, numbers);
+    out.flux *= float(cumulative_.back() / own) / from.density;
     return out;
 }
 
@@ -137,7 +190,10 @@ void LightTracer::trace(std::uint64_t key, std::uint64_t index, bool scatter, co
         return;
     }
     Numbers numbers{hash_combine(key, index)};
-    Start begin = start(numbers);
+    follow(start(guide_(numbers.next4()), numbers), numbers, scatter, visit);
+}
+
+void LightTracer::follow(const Start& begin, Numbers& numbers, bool scatter, const Visit& visit) const {
     const float first_flux = max_component(begin.flux);
     if (!(first_flux > 0.0F)) {
         return;

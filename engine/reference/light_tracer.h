@@ -3,8 +3,10 @@
 
 #include "engine/reference/aim.h"
 #include "engine/reference/path_lights.h"
+#include "engine/reference/start_guide.h"
 
 #include <functional>
+#include <span>
 
 namespace atrium {
 
@@ -23,11 +25,16 @@ struct CausticLeg {
 
 /// Random particles of suns, lamps and emitters, aimed at what mirrors and bends light. One that meets a diffuse surface
 /// first ends there, for paths find its light; after that it goes on over surfaces of all kinds. Emitters are those that
-/// PathLights::small() tells, or all. Immutable; safe from any thread.
+/// PathLights::small() tells, or all. Most start where a first look found that they land somewhere: where little of the
+/// light gets to a mirror at all, as the sun's through a window, that is many times as many. Immutable; safe from any
+/// thread.
 class LightTracer {
 public:
     enum class Emitters : std::uint8_t { Small, All };
-    LightTracer(const RayScene& rays, const PathLights& lights, Emitters emitters);
+    /// Who asks at a few `places` alone gets most of the particles near them, the nearer the more down to `radius` (metres);
+    /// many are everywhere.
+    LightTracer(const RayScene& rays, const PathLights& lights, Emitters emitters, std::span<const vec3> places = {},
+                float radius = 0.0F);
 
     /// False where nothing can make a caustic.
     [[nodiscard]] bool useful() const { return !sources_.empty(); }
@@ -49,16 +56,20 @@ private:
     struct Numbers;
     void add(const Source& source, double weight);
     void add_emitters(Emitters emitters);
-    [[nodiscard]] Start start(Numbers& numbers) const;
-    [[nodiscard]] Start from_sun(const Source& source, Numbers& numbers) const;
-    [[nodiscard]] Start from_lamp(const Source& source, Numbers& numbers) const;
-    [[nodiscard]] Start from_emitter(const Source& source, Numbers& numbers) const;
+    void learn(std::span<const vec3> places, float radius);
+    /// `at` picks the source and where it aims.
+    [[nodiscard]] Start start(const StartGuide::Start& at, Numbers& numbers) const;
+    [[nodiscard]] Start from_sun(const Source& source, const vec3& aim, Numbers& numbers) const;
+    [[nodiscard]] Start from_lamp(const Source& source, const vec3& aim) const;
+    [[nodiscard]] Start from_emitter(const Source& source, const vec3& aim, Numbers& numbers) const;
+    void follow(const Start& begin, Numbers& numbers, bool scatter, const Visit& visit) const;
 
     const RayScene& rays_;
     const PathLights& lights_;
     Aim aim_;
     std::vector<Source> sources_;
     std::vector<double> cumulative_; ///< weight up to and including each source
+    StartGuide guide_;
 };
 
 } // namespace atrium

@@ -18,8 +18,8 @@ using Prepare = std::function<void(std::uint32_t paths)>;
 
 /// Particles of a stream for each of its paths, and bounds of those in one round. A disc is small: it takes many to cross
 /// it.
-constexpr std::uint64_t kParticlesPerPath = 1024;
-constexpr std::uint64_t kLeastParticles = 4096;
+constexpr std::uint64_t kParticlesPerPath = 256;
+constexpr std::uint64_t kLeastParticles = 1024;
 
 constexpr float kRadiusOfPoints = 1e-3F; // of the scene's diagonal, where no radius is asked for
 constexpr float kRadiusOfPictures = 3e-3F;
@@ -208,12 +208,15 @@ Result<ReferenceReadings> reference_irradiance(const Scene& scene, const std::ve
         vertices[i] = place(rays, points[i], out.points[i].on_surface);
     }
     constexpr unsigned kStreams = 16;
-    const LightTracer particles(rays, tracer.lights(), LightTracer::Emitters::Small);
     const float radius = caustic_radius(settings, rays, kRadiusOfPoints);
     std::vector<CausticDisc> discs;
+    std::vector<vec3> places;
     for (const PathVertex& v : vertices) {
         discs.push_back({v.origin, v.normal});
+        places.push_back(v.origin);
     }
+    const LightTracer particles(rays, tracer.lights(), LightTracer::Emitters::Small, places, radius);
+    const DiscTree tree(discs, radius);
     std::vector<std::vector<Rgb>> caustics(kStreams, std::vector<Rgb>(points.size(), Rgb(0.0F)));
     std::uint64_t traced = 0;
     const Prepare prepare = [&](std::uint32_t paths) {
@@ -221,7 +224,7 @@ Result<ReferenceReadings> reference_irradiance(const Scene& scene, const std::ve
         parallel_chunks(kStreams, 1, [&](std::size_t from, std::size_t to, std::size_t) {
             for (std::size_t s = from; s < to && !context.should_stop(); ++s) {
                 const std::uint64_t key = hash_combine(hash_combine(0xCA57ULL, settings.seed), s);
-                caustics[s] = caustic_light_on(discs, radius, rays, particles, {key, traced, count}, context);
+                caustics[s] = caustic_light_on(tree, rays, particles, {key, traced, count}, context);
             }
         });
         traced += count;

@@ -174,8 +174,8 @@ TEST(IndirectGather, NarrowPlacesAreAsDarkAsTheyAreThoughLeavesAreLarge) {
     EXPECT_LT(left_of_means, 0.1 * (by_means - right));
 }
 
-// A floor that is white on one side only, under a point that looks down on its middle: the rays that find it white are half of
-// all, and their further rays have to look everywhere all the same, wherever the light comes from.
+// A floor that is white on one side only, under a point that looks down on its middle: the rays that find it white are half
+// of all, and their further rays have to look everywhere all the same, wherever the light comes from.
 TEST(IndirectGather, FurtherRaysDoNotFollowFromTheFirst) {
     constexpr float kWhite = 0.8F;
     for (const auto& [x, z] : {std::pair(-1.0, -1.0), {-1.0, 1.0}, {1.0, -1.0}, {1.0, 1.0}}) {
