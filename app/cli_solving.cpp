@@ -4,6 +4,7 @@
 #include "engine/base/parallel.h"
 #include "engine/measure/error_audit.h"
 #include "engine/scene/daylight.h"
+#include "engine/solver/memory_budget.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -99,6 +100,12 @@ void add_solve_options(CLI::App& command, SolveArguments& a) {
         ->group(group);
     command.add_option("--threads", a.threads, "Number of worker threads, 0 = one per core")
         ->check(CLI::Range(0U, 1024U))
+        ->group(group);
+    command
+        .add_option_function<double>(
+            "--memory", [](double mib) { set_memory_budget(std::size_t(mib * 1024.0 * 1024.0)); },
+            "MiB that the light may take; where it takes more it gets coarser (default: half of the machine's)")
+        ->check(CLI::Range(16.0, 1e7))
         ->group(group);
     command.add_option("--seed", a.seed, "Seed of the random numbers")->group(group);
     command.add_option("--mode", a.mode, "default, or paper: caustic textures by the algorithms of 2001")
@@ -213,6 +220,12 @@ int light_up(Solved& solved, const SolveArguments& arguments, bool need_engine, 
     }
     solved.solution = *result;
     solved.from_file = false;
+    if (solved.solution->statistics.link_budget_reached) {
+        complain(
+            fmt::format("warning: {}: at most {} MiB are to be used, so the light is coarser than its quality stands for. "
+                        "--memory gives it more",
+                        solved.file, memory_budget() >> 20U));
+    }
     solved.stopped = !solved.solution->final;
     if (solved.stopped) {
         complain(fmt::format("{}: stopped {}; the light is that of the last complete picture", solved.file,

@@ -1,5 +1,7 @@
 #include "engine/base/parallel.h"
 
+#include "engine/base/float_traps.h"
+
 #include <algorithm>
 #include <atomic>
 #include <memory>
@@ -62,7 +64,7 @@ void parallel_chunks(std::size_t count, std::size_t grain,
     on_threads(chunks, [&](std::size_t chunk) {
         // Worker threads belong to TBB, so the mode is set per chunk (two instructions) and put back after it.
         const unsigned saved = _mm_getcsr();
-        _mm_setcsr(saved | _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON);
+        _mm_setcsr(with_float_traps(saved | _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON));
         const std::size_t begin = chunk * grain;
         body(begin, std::min(begin + grain, count), chunk);
         _mm_setcsr(saved);

@@ -12,7 +12,7 @@ void set_thread_limit(unsigned threads);
 unsigned thread_limit();
 
 /// Calls body(begin, end, chunk_index) for consecutive chunks of [0, count) of `grain` items (the last may be short),
-/// in any order, on worker threads. Floating-point traps and rounding are left alone; denormals are flushed in workers.
+/// in any order, on worker threads. Rounding is left alone, denormals are flushed, and traps are those of float_traps.h.
 /// `body` must not throw.
 void parallel_chunks(std::size_t count, std::size_t grain,
                      const std::function<void(std::size_t begin, std::size_t end, std::size_t chunk)>& body);

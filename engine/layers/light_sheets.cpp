@@ -8,8 +8,9 @@ namespace atrium {
 namespace {
 
 // Metres that a sample keeps from the border of its chart: walls that meet there must not hide it. Above the rounding of
-// coordinates and the offset of rays, below what an eye sees of a shadow.
+// coordinates and the offset of rays, below what an eye sees of a shadow; in small scenes below half of the finest texel.
 constexpr float kPullIn = 0.002F;
+constexpr float kPullInTiles = 1.0F / 160.0F;
 
 } // namespace
 
@@ -59,7 +60,8 @@ LightSheets::LightSheets(const RayScene& rays, std::span<const SurfaceCharts> ch
 
 std::optional<LightSheets::Place> LightSheets::locate(std::uint32_t index, const vec2& at, float reach) const {
     const LightSheet& sheet = sheets_[index];
-    const ChartPoint on = lookups_[sheet.lookup].nearest_inside(at, reach, kPullIn);
+    const float pull = std::min(kPullIn, kPullInTiles * std::min(sheet.chart->scale.x, sheet.chart->scale.y));
+    const ChartPoint on = lookups_[sheet.lookup].nearest_inside(at, reach, pull);
     if (!on || on.distance > reach) {
         return std::nullopt;
     }

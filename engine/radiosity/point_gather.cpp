@@ -30,10 +30,46 @@ bool faces_point(const vec3& on_plane, const vec3& normal, const SurfacePoint& p
 
 constexpr std::uint32_t kMostFaces = 512; // of a group that are looked at singly
 
-// Form factor of a convex polygon, or of what can be seen of it over a mirror.
-double form_factor(const SurfacePoint& p, std::span<const vec3> corners, const MirrorSight* over) {
+// Mean form factor, over the stretch that a sample stands for, of a polygon that rises from the receiver's plane beside it:
+// in front of a strip of width w the light falls within a few w, however near the next sample is. The stretch runs across
+// the line in which the planes meet and ends there; points are dense towards it. Negative where the polygon is none such.
+double mean_factor(const SurfacePoint& p, std::span<const vec3> corners, const vec3& normal, float spread) {
+    constexpr int kPoints = 12;
+    constexpr float kNear = 8.0F; // stretches: beyond, the light is even over one
+    const vec3 across = normal - p.normal * glm::dot(normal, p.normal);
+    const float slope = glm::length(across); // of the distance from the polygon's plane along the stretch
+    const float height = glm::dot(p.position - corners[0], normal);
+    if (slope < 0.1F || height > kNear * spread * slope) {
+        return -1.0;
+    }
+    float nearest = std::numeric_limits<float>::max();
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const vec3 edge = corners[(k + 1) % corners.size()] - corners[k], d = p.position - corners[k];
+        const float along = std::clamp(glm::dot(d, edge) / std::max(glm::dot(edge, edge), 1e-30F), 0.0F, 1.0F);
+        nearest = std::min(nearest, glm::length(d - along * edge));
+    }
+    if (nearest > 2.0F * kNear * spread) {
+        return -1.0;
+    }
+    const float at = height / slope;
+    const float low = at < spread ? 0.0F : at - spread, high = at < spread ? spread : at + spread;
+    const float first = std::sqrt(low / high);
+    double sum = 0.0, weights = 0.0;
+    for (int k = 0; k < kPoints; ++k) {
+        const float u = first + (1.0F - first) * (float(k) + 0.5F) / float(kPoints);
+        const vec3 there = p.position + across * ((high * u * u - at) / slope);
+        sum += double(u) * form_factor_to_polygon(there, p.normal, corners);
+        weights += double(u);
+    }
+    return sum / weights;
+}
+
+// Form factor of a convex polygon, or of what can be seen of it over a mirror. `normal` is the polygon's.
+double form_factor(const SurfacePoint& p, std::span<const vec3> corners, const vec3& normal, const MirrorSight* over,
+                   float spread) {
     if (over == nullptr) {
-        return form_factor_to_polygon(p.position, p.normal, corners);
+        const double mean = spread > 0.0F ? mean_factor(p, corners, normal, spread) : -1.0;
+        return mean >= 0.0 ? mean : form_factor_to_polygon(p.position, p.normal, corners);
     }
     std::array<vec3, MirrorSight::kMaxCorners> seen;
     const std::size_t count = over->clip(corners, seen);
@@ -57,7 +93,7 @@ float far_factor(const SurfacePoint& p, const std::array<vec3, 3>& corner, const
 
 // Faces one by one; of many, evenly chosen ones stand for all.
 Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e, const SurfacePoint& p,
-                     const MirrorSight* over) {
+                     const MirrorSight* over, float spread) {
     const std::uint32_t step = (e.face_count + kMostFaces - 1) / kMostFaces;
     float factor = 0.0F;
     float chosen = 0.0F;
@@ -67,7 +103,7 @@ Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e,
         chosen += face.area;
         if (faces_point(corner[0], face.normal, p)) {
             const float far = over == nullptr ? far_factor(p, corner, face) : -1.0F;
-            factor += far >= 0.0F ? far : float(form_factor(p, corner, over));
+            factor += far >= 0.0F ? far : float(form_factor(p, corner, face.normal, over, spread));
         }
     }
     return e.radiosity * std::min(factor * (e.area / chosen), 1.0F);
@@ -75,7 +111,7 @@ Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e,
 
 // What can be seen of patches and faces over a mirror is cut out exactly; clusters count as if all of them could be seen.
 CutNode evaluate(const Hierarchy& h, const RayScene& rays, const FarFaces* far, std::uint32_t index, const SurfacePoint& p,
-                 const MirrorSight* over) {
+                 const MirrorSight* over, float spread) {
     const Element& e = h.elements[index];
     CutNode out;
     out.element = index;
@@ -94,7 +130,7 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, const FarFaces* far, 
             return out;
         }
         const float coverage = h.coverage(e);
-        const auto factor = coverage * float(form_factor(p, h.corners(e), over));
+        const auto factor = coverage * float(form_factor(p, h.corners(e), e.normal, over, spread));
         out.contribution = e.radiosity * factor;
         // Where the surface lies within a cell that it does not fill is as uncertain as how bright it is there.
         out.error = e.leaf() ? 0.0F : factor * (e.spread + std::max(1.0F - coverage, 0.0F) * luminance(e.radiosity));
@@ -108,7 +144,7 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, const FarFaces* far, 
             return out;
         }
         if (r < 4.0F * e.radius || over != nullptr) {
-            out.contribution = faces_one_by_one(h, rays, e, p, over);
+            out.contribution = faces_one_by_one(h, rays, e, p, over, spread);
             return out;
         }
     } else if (r < 1.5F * e.radius) {
@@ -268,7 +304,7 @@ void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& sett
     };
     // Whatever may hold leaves that are too near is opened first.
     const auto look = [&](std::uint32_t index) {
-        CutNode node = evaluate(h_, rays_, far_, index, p, over);
+        CutNode node = evaluate(h_, rays_, far_, index, p, over, settings.spread);
         if (settings.nearest > 0.0F && over == nullptr && h_.elements[index].power > 0.0F) {
             const Element& e = h_.elements[index];
             if (too_near(e, p.position, settings.nearest)) {
@@ -293,7 +329,7 @@ void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& sett
         total -= luminance(top.contribution);
         const Element& e = h_.elements[top.element];
         if (e.kind == Kind::Faces) {
-            const CutNode exact{top.element, faces_one_by_one(h_, rays_, e, p, over), 0.0F};
+            const CutNode exact{top.element, faces_one_by_one(h_, rays_, e, p, over, settings.spread), 0.0F};
             total += luminance(exact.contribution);
             done.push_back(exact);
             continue;

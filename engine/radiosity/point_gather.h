@@ -16,6 +16,9 @@ struct GatherSettings {
     unsigned sky_rays = 128;
     /// Leaves whose middle is nearer than this many of their radii are left out: there their mean says too little of them.
     float nearest = 0.0F;
+    /// Half of what a sample stands for, metres: beside a lamp that stands on the surface it gets the mean over that
+    /// stretch, or the light of narrow lamps would fall between the samples. 0: the light at the very point.
+    float spread = 0.0F;
 };
 
 /// An element is a leaf whose middle is nearer to a point than so many of its radii: see GatherSettings::nearest.

@@ -22,6 +22,15 @@ bool anything_on(RTCScene scene, RTCRay& ray) {
     return ray.tfar < 0.0F;
 }
 
+// Backs are passed through. For queries of single rays.
+void keep_fronts(const RTCFilterFunctionNArguments* args) {
+    const auto* ray = reinterpret_cast<const RTCRay*>(args->ray);
+    const auto* hit = reinterpret_cast<const RTCHit*>(args->hit);
+    if (ray->dir_x * hit->Ng_x + ray->dir_y * hit->Ng_y + ray->dir_z * hit->Ng_z >= 0.0F) {
+        *args->valid = 0;
+    }
+}
+
 void on_embree_error(void*, RTCError error, const char* message) {
     if (error != RTC_ERROR_CANCELLED) { // we asked it to stop
         std::fprintf(stderr, "embree: %s\n", message);
@@ -31,6 +40,7 @@ void on_embree_error(void*, RTCError error, const char* message) {
 } // namespace
 
 EmbreeTriangles::EmbreeTriangles() {
+    const FloatTrapsOff quiet;
     device_ = rtcNewDevice(nullptr);
     ATRIUM_CHECK(device_ != nullptr);
     rtcSetDeviceErrorFunction(device_, on_embree_error, nullptr);
@@ -65,7 +75,8 @@ void EmbreeTriangles::release_scenes() {
 
 RTCScene EmbreeTriangles::new_scene() const {
     RTCScene scene = rtcNewScene(device_);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(scene, RTCSceneFlags(RTC_SCENE_FLAG_ROBUST |
+                                          (tells_fronts_ ? RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION : RTC_SCENE_FLAG_NONE)));
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
     return scene;
 }
@@ -85,6 +96,7 @@ RTCGeometry EmbreeTriangles::make(const RaySurface& surface, bool filters) const
 
 void EmbreeTriangles::build(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters,
                             const RunContext& context) {
+    const FloatTrapsOff quiet;
     release_scenes();
     rebuilt_ = false;
     still_ = new_scene();
@@ -113,6 +125,7 @@ void EmbreeTriangles::build(std::span<const RaySurface> surfaces, const std::vec
 
 void EmbreeTriangles::move(std::span<const std::uint32_t> moved, std::span<const RaySurface> surfaces,
                            const std::vector<std::uint8_t>& filters, std::span<const Box3> bounds) {
+    const FloatTrapsOff quiet;
     std::size_t at_rest = 0;
     for (const std::uint32_t surface : moved_surfaces_) {
         at_rest += surfaces[surface].triangles.size();
@@ -128,7 +141,7 @@ void EmbreeTriangles::move(std::span<const std::uint32_t> moved, std::span<const
     if (moved_ == nullptr) {
         moved_ = new_scene();
         // Two levels: one small tree for each surface, fitted to new positions without being built again.
-        rtcSetSceneFlags(moved_, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
+        rtcSetSceneFlags(moved_, rtcGetSceneFlags(moved_) | RTC_SCENE_FLAG_DYNAMIC);
         rtcSetSceneBuildQuality(moved_, RTC_BUILD_QUALITY_LOW);
     }
     for (const std::uint32_t i : moved) {
@@ -215,9 +228,11 @@ void EmbreeTriangles::take_nearer_of_moved(RTCRayHit& query) const {
     }
 }
 
-void EmbreeTriangles::take_nearer_of(RTCScene scene, const std::vector<std::uint32_t>& numbers, RTCRayHit& query) const {
+void EmbreeTriangles::take_nearer_of(RTCScene scene, const std::vector<std::uint32_t>& numbers, RTCRayHit& query,
+                                     RTCFilterFunctionN filter) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    context.filter = filter;
     RTCRayHit nearer = query;
     nearer.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     nearer.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
@@ -229,6 +244,7 @@ void EmbreeTriangles::take_nearer_of(RTCScene scene, const std::vector<std::uint
 }
 
 bool EmbreeTriangles::remember(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters) {
+    const FloatTrapsOff quiet;
     if (rebuilt_) {
         return false;
     }
@@ -261,6 +277,7 @@ bool EmbreeTriangles::remember(std::span<const RaySurface> surfaces, const std::
 }
 
 bool EmbreeTriangles::meets_moved(const vec3& from, const vec3& direction, float tnear, float tfar) const {
+    const FloatTrapsOff quiet;
     const auto any = [&](RTCScene scene, const Reach& reach) {
         if (scene == nullptr || !meets(reach, from, direction, tnear, tfar)) {
             return false;
@@ -275,6 +292,7 @@ bool EmbreeTriangles::meets_moved(const vec3& from, const vec3& direction, float
 TriangleHit EmbreeTriangles::nearest_before(const vec3& from, const vec3& direction, float tnear, float tfar) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    const FloatTrapsOff quiet;
     RTCRayHit query;
     fill(query.ray, from, direction, tnear, tfar, kOpaque | kFilter);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -282,6 +300,25 @@ TriangleHit EmbreeTriangles::nearest_before(const vec3& from, const vec3& direct
     rtcIntersect1(still_, &context, &query);
     if (meets(before_reach_, from, direction, tnear, query.ray.tfar)) {
         take_nearer_of(before_, before_surfaces_, query);
+    }
+    return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? TriangleHit{} : found(query);
+}
+
+TriangleHit EmbreeTriangles::nearest_front(bool before, const vec3& from, const vec3& direction, float tnear,
+                                           float tfar) const {
+    const FloatTrapsOff quiet;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.filter = keep_fronts;
+    RTCRayHit query;
+    fill(query.ray, from, direction, tnear, tfar, kOpaque);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(still_, &context, &query);
+    if (before && meets(before_reach_, from, direction, tnear, query.ray.tfar)) {
+        take_nearer_of(before_, before_surfaces_, query, keep_fronts);
+    } else if (!before && moved_ != nullptr && meets(moved_reach_, from, direction, tnear, query.ray.tfar)) {
+        take_nearer_of(moved_, moved_surfaces_, query, keep_fronts);
     }
     return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? TriangleHit{} : found(query);
 }
@@ -295,6 +332,7 @@ bool EmbreeTriangles::blocked_by_moved(RTCRay& query) const {
 }
 
 unsigned EmbreeTriangles::blocked_of_8(const vec3& from, std::span<const vec3> directions, float tnear) const {
+    const FloatTrapsOff quiet;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -337,6 +375,7 @@ unsigned EmbreeTriangles::blocked_of_8(const vec3& from, std::span<const vec3> d
 
 void EmbreeTriangles::nearest_filters_of_8(const vec3& from, std::span<const vec3> directions, std::span<const float> tnear,
                                            unsigned wanted, std::span<TriangleHit> hits) const {
+    const FloatTrapsOff quiet;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;

@@ -2,6 +2,7 @@
 // alone.
 #pragma once
 
+#include "engine/base/float_traps.h"
 #include "engine/raycast/ray_scene.h"
 
 #include <array>
@@ -33,6 +34,8 @@ public:
     EmbreeTriangles(const EmbreeTriangles&) = delete;
     EmbreeTriangles& operator=(const EmbreeTriangles&) = delete;
 
+    /// Makes nearest_front() possible, which costs all other rays a little. Before build().
+    void tell_fronts() { tells_fronts_ = true; }
     /// One value of `filters` for each surface.
     /// No query may follow when it is stopped.
     void build(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters,
@@ -53,6 +56,7 @@ public:
     /// Among all surfaces or among those that filter light. Call it in one place, where it is compiled in.
     [[nodiscard]] TriangleHit nearest(bool only_filters, const vec3& from, const vec3& direction, float tnear,
                                       float tfar) const {
+        const FloatTrapsOff quiet;
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         RTCRayHit query;
@@ -68,8 +72,13 @@ public:
         }
         return found(query);
     }
+    /// nearest() among the opaque fronts that the ray meets, now or before anything moved (needs remember()); after
+    /// tell_fronts().
+    [[nodiscard]] TriangleHit nearest_front(bool before, const vec3& from, const vec3& direction, float tnear,
+                                            float tfar) const;
     /// Anything opaque on the ray?
     [[nodiscard]] bool blocked(const vec3& from, const vec3& direction, float tnear, float tfar) const {
+        const FloatTrapsOff quiet;
         RTCIntersectContext context;
         rtcInitIntersectContext(&context);
         RTCRay query;
@@ -124,7 +133,8 @@ private:
 
     // What was moved, after the rest was asked: apart, to stay out of the way where nothing ever was.
     void take_nearer_of_moved(RTCRayHit& query) const;
-    void take_nearer_of(RTCScene scene, const std::vector<std::uint32_t>& numbers, RTCRayHit& query) const;
+    void take_nearer_of(RTCScene scene, const std::vector<std::uint32_t>& numbers, RTCRayHit& query,
+                        RTCFilterFunctionN filter = nullptr) const;
     [[nodiscard]] bool blocked_by_moved(RTCRay& query) const;
 
     static bool meets(const Reach& reach, const vec3& origin, const vec3& direction, float tnear, float tfar);
@@ -146,6 +156,7 @@ private:
     Reach moved_reach_;
     Reach moved_filter_reach_; // of what filters among it
     std::size_t triangles_ = 0;
+    bool tells_fronts_ = false;
     std::atomic<std::size_t> bytes_{0};
 };
 

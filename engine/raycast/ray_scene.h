@@ -23,7 +23,10 @@ struct RaySurface {
     std::shared_ptr<const MeshData> mesh;               ///< local coordinates
     std::shared_ptr<const std::vector<vec3>> positions; ///< mesh->positions in engine coordinates, shared by parts
     std::shared_ptr<const std::vector<vec2>> domain;    ///< curved primitives: see curved_domain(); else null
-    std::vector<uvec3> triangles; ///< vertex indices, counter-clockwise from the front; degenerate ones are left out
+    /// Vertex indices, counter-clockwise from the front. Left out are degenerate triangles, doubles of earlier ones and,
+    /// where both sides count anyway, what is an earlier one turned round.
+    std::vector<uvec3> triangles;
+    std::shared_ptr<const std::vector<std::uint32_t>> repeated; ///< numbers of those doubles in the part; null: none
     bool pane =
         false; ///< a sheet or slab of clear glass large enough to be a window: the sky is looked for through it by name
     bool slab =
@@ -78,8 +81,8 @@ struct MovedSurface {
 /// origin().
 class RayScene {
 public:
-    /// Builds from the shown nodes of `scene`, of which it keeps its own copy. Degenerate and non-finite triangles are left
-    /// out and counted. When stopped, it is incomplete and must not be asked anything.
+    /// Builds from the shown nodes of `scene`, of which it keeps its own copy. Degenerate, non-finite and repeated triangles
+    /// are left out and counted. When stopped, it is incomplete and must not be asked anything.
     explicit RayScene(const Scene& scene, const RunContext& context = {});
     ~RayScene();
     RayScene(const RayScene&) = delete;
@@ -114,7 +117,8 @@ public:
     [[nodiscard]] std::size_t memory_bytes() const;  ///< of Embree's structures, as Embree reports them
     [[nodiscard]] std::uint64_t rays_traced() const; ///< so far, all queries
 
-    /// Nearest hit of surfaces that a mirror, lens or camera ray can meet (alpha cut-outs are passed through).
+    /// Nearest hit of surfaces that a mirror, lens or camera ray can meet (alpha cut-outs are passed through). Of opaque
+    /// surfaces in one place the one that faces the ray.
     [[nodiscard]] Hit nearest(const Ray& ray) const;
     /// The ray meets something that moved, where it is now or (after look_back()) where it stood: what it sees may have
     /// changed. Far cheaper than nearest().

@@ -5,6 +5,7 @@
 
 #include "engine/base/checks.h"
 #include "engine/geometry/mesh_topology.h"
+#include "engine/geometry/repeated_triangles.h"
 #include "engine/geometry/surface_charts.h"
 #include "engine/geometry/tessellate.h"
 #include "engine/optics/specular.h"
@@ -89,6 +90,12 @@ struct RayScene::Impl {
         std::optional<Node> absent;
     };
 
+    // What was found out about meshes while they are collected; nodes share them.
+    struct Known {
+        std::map<const MeshData*, bool> closed;
+        std::map<const MeshData*, RepeatedTriangles> repeated;
+    };
+
     Scene scene;
     std::vector<RaySurface> surfaces;
     std::vector<const Material*> materials; // per surface, into `scene`
@@ -104,6 +111,7 @@ struct RayScene::Impl {
     std::size_t triangles = 0;
     std::size_t dropped = 0;
     bool any_filter = false;
+    bool twins = false; // triangles of some mesh lie in one place and face apart
 
     void count_ray() { count_rays(1); }
     void count_rays(std::size_t rays) {
@@ -118,7 +126,7 @@ struct RayScene::Impl {
         // floor(x + 0.5), not round(): halves go the same way on both sides of zero, so a moved scene gives the same
         // numbers.
         origin = world.empty() ? dvec3(0.0) : glm::floor(world.centre() + 0.5);
-        std::map<const MeshData*, bool> closed;
+        Known known;
         std::map<std::pair<ShapeId, int>, std::shared_ptr<const MeshData>> tessellated;
         for (const NodeId id : scene.in_tree_order()) {
             const Node& node = *scene.nodes.find(id);
@@ -134,9 +142,12 @@ struct RayScene::Impl {
             if (!mesh) {
                 mesh = tessellate(shape->geometry, {segments});
             }
-            add_node(id, node, *shape, mesh, closed, context);
+            add_node(id, node, *shape, mesh, known, context);
         }
         any_filter = std::find(filters.begin(), filters.end(), 1) != filters.end();
+        if (twins) {
+            embree.tell_fronts();
+        }
     }
 
     // Lenses and curved mirrors need their shape closer than what is matt: light that they focus shows every facet.
@@ -149,11 +160,19 @@ struct RayScene::Impl {
         return focuses ? kFocusing : TessellationOptions{}.segments;
     }
 
-    void add_node(NodeId id, const Node& node, const Shape& shape, const std::shared_ptr<const MeshData>& mesh,
-                  std::map<const MeshData*, bool>& closed, const RunContext& context) {
+    void add_node(NodeId id, const Node& node, const Shape& shape, const std::shared_ptr<const MeshData>& mesh, Known& known,
+                  const RunContext& context) {
         Placed place{id, mesh, scene.world_matrix(id), scene.world_bounds(id), std::uint32_t(surfaces.size()), 0, {}};
         place.to_engine[3] -= dvec4(origin, 0.0);
         const auto positions = positions_of(*mesh, place.to_engine);
+        const auto [repeated, first_time] = known.repeated.try_emplace(mesh.get());
+        if (first_time) {
+            repeated->second = repeated_triangles(*mesh, context);
+            twins = twins || repeated->second.twins;
+        }
+        if (context.should_stop()) {
+            return;
+        }
         std::shared_ptr<const std::vector<vec2>> domain;
         if (std::vector<vec2> coordinates = curved_domain(shape.geometry, *mesh); !coordinates.empty()) {
             domain = std::make_shared<const std::vector<vec2>>(std::move(coordinates));
@@ -166,6 +185,10 @@ struct RayScene::Impl {
             surface.mesh = mesh;
             surface.domain = domain;
             surface.positions = positions;
+            const Material* material = scene.materials.find(surface.material);
+            material = material != nullptr ? material : &default_material();
+            surface.repeated =
+                repeated_of(repeated->second.parts[part], material->double_sided || lets_light_through(*material));
             Box3 box;
             dropped += place_surface(surface, place.to_engine, box, context);
             if (context.should_stop()) {
@@ -175,10 +198,8 @@ struct RayScene::Impl {
                 continue;
             }
             bounds.add(box);
-            const Material* material = scene.materials.find(surface.material);
-            material = material != nullptr ? material : &default_material();
             if (material->double_sided && !lets_light_through(*material)) {
-                const auto [it, first] = closed.try_emplace(mesh.get(), false);
+                const auto [it, first] = known.closed.try_emplace(mesh.get(), false);
                 if (first) {
                     // Solids' insides stay dark and cost nothing. Whatever is as large as a room may be one, seen from
                     // inside.
@@ -197,6 +218,18 @@ struct RayScene::Impl {
             ++place.surfaces;
         }
         placed.push_back(std::move(place));
+    }
+
+    // Triangles of a part that stand for nothing of their own: doubles; with `both_sides` also turned twins, which say no
+    // more than that the surface has two sides. Null where there are none.
+    static std::shared_ptr<const std::vector<std::uint32_t>> repeated_of(const RepeatedTriangles::Part& repeated,
+                                                                         bool both_sides) {
+        std::vector<std::uint32_t> out = repeated.same;
+        if (both_sides) {
+            out.insert(out.end(), repeated.turned.begin(), repeated.turned.end());
+            std::sort(out.begin(), out.end());
+        }
+        return out.empty() ? nullptr : std::make_shared<const std::vector<std::uint32_t>>(std::move(out));
     }
 
     static bool is_small(const DBox3& world, double extent) { return world.diagonal() < 0.25 * extent; }
@@ -221,10 +254,16 @@ struct RayScene::Impl {
         surface.mirrored = determinant < 0.0;
         surface.normal_matrix = determinant != 0.0 ? glm::transpose(glm::inverse(dmat3(to_engine))) : dmat3(1.0);
         surface.triangles.clear();
-        std::size_t left_out = 0;
+        std::size_t left_out = 0, next_repeated = 0;
         const MeshData& mesh = *surface.mesh;
         const MeshPart& range = mesh.parts[surface.part];
         for (std::uint32_t i = range.first_index; i + 2 < range.first_index + range.index_count && !stop(); i += 3) {
+            if (surface.repeated && next_repeated < surface.repeated->size() &&
+                (*surface.repeated)[next_repeated] == (i - range.first_index) / 3) {
+                ++next_repeated;
+                ++left_out;
+                continue;
+            }
             uvec3 t(mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]);
             if (surface.mirrored) {
                 std::swap(t.y, t.z);
@@ -304,22 +343,29 @@ struct RayScene::Impl {
             const Material& m = *materials[h.surface];
             if (m.alpha_mode != Material::Alpha::Mask ||
                 self.base_color(h.surface, h.triangle, h.barycentric).a >= m.alpha_cutoff) {
-                return h;
+                const bool dark_back = twins && !h.front && !surfaces[h.surface].back_side && filters[h.surface] == 0;
+                return dark_back ? front_instead(h, ray, tnear, before) : h;
             }
             tnear = h.t + std::max(1e-5F, 1e-6F * h.t);
         }
         return {};
     }
 
+    // Where two surfaces lie in one place and face apart, as in models that have each triangle a second time, turned round,
+    // so as to be seen from both sides, a ray meets the one that faces it; which of them it would meet first is chance.
+    Hit front_instead(const Hit& back, const Ray& ray, float tnear, bool before) {
+        constexpr float kRounding = 1e-6F; // of distances
+        const float cosine = std::max(glm::dot(back.geometric_normal, ray.direction), 0.05F);
+        const float slack = kRounding * (back.t + max_component(glm::abs(ray.origin))) / cosine;
+        count_ray();
+        const TriangleHit met = embree.nearest_front(before, ray.origin, ray.direction, std::max(tnear, back.t - slack),
+                                                     std::min(ray.tmax, back.t + slack));
+        return met.surface == Hit::kNone ? back : as_hit(met, ray.direction, before);
+    }
+
     Hit hit_before(const vec3& from, const vec3& direction, float tnear, float tfar) {
         count_ray();
-        const TriangleHit met = embree.nearest_before(from, direction, tnear, tfar);
-        Hit out{met.surface, met.triangle, met.t, met.barycentric};
-        if (out) {
-            out.geometric_normal = glm::normalize(met.normal);
-            out.front = glm::dot(out.geometric_normal, direction) < 0.0F;
-        }
-        return out;
+        return as_hit(embree.nearest_before(from, direction, tnear, tfar), direction, true);
     }
 
     Hit hit(bool only_filters, const vec3& from, const vec3& direction, float tnear, float tfar) {
@@ -327,7 +373,8 @@ struct RayScene::Impl {
         return as_hit(embree.nearest(only_filters, from, direction, tnear, tfar), direction);
     }
 
-    [[nodiscard]] Hit as_hit(const TriangleHit& met, const vec3& direction) const {
+    // Surfaces may have moved since `before`: their positions then tell nothing of the normal.
+    [[nodiscard]] Hit as_hit(const TriangleHit& met, const vec3& direction, bool before = false) const {
         Hit out;
         if (met.surface == Hit::kNone) {
             return out;
@@ -338,7 +385,7 @@ struct RayScene::Impl {
         out.barycentric = met.barycentric;
         const uvec3& t = surfaces[out.surface].triangles[out.triangle];
         const std::vector<vec3>& p = *surfaces[out.surface].positions;
-        out.geometric_normal = glm::normalize(glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]));
+        out.geometric_normal = glm::normalize(before ? met.normal : glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]));
         out.front = glm::dot(out.geometric_normal, direction) < 0.0F;
         return out;
     }

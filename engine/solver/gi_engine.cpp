@@ -5,6 +5,7 @@
 #include "engine/radiosity/leaf_surroundings.h"
 #include "engine/radiosity/links.h"
 #include "engine/solver/gi_engine_impl.h"
+#include "engine/solver/memory_budget.h"
 #include "engine/solver/phase_timer.h"
 
 #include <algorithm>
@@ -61,6 +62,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         }
         return fail("", "", "stopped before the first picture", "Give it more time, or choose draft quality");
     };
+    bool out_of_links = false, out_of_texels = false;
     double leaf_error = 0.0; // of what is gathered from leaves, relative to all light
     const auto publish = [&](LayerSet layers, bool final) {
         auto solution = std::make_shared<Solution>();
@@ -68,6 +70,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         solution->final = final;
         solution->updatable = final && options.keep_for_updates;
         solution->mean_radiance = layers.mean_radiance;
+        statistics.link_budget_reached = out_of_links || out_of_texels;
         statistics.error_estimate = std::hypot(layers.error_estimate, leaf_error);
         statistics.memory.layers = layers.memory_bytes();
         statistics.memory.caustic_textures = s.caustics.memory_bytes();
@@ -121,6 +124,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     if (options.particles > 0) {
         quality.particles = options.particles;
     }
+    keep_within(quality, memory_budget(), s.rays->triangle_count());
     s.field = quality.field;
     s.caustic_settings = quality.caustics;
     s.wishes = caustic_wishes(scene, *s.rays);
@@ -192,6 +196,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
             *s.rays, s.charts, s.direct_parts(field.direct),
             [&](std::uint32_t surface) { return s.rays->surfaces()[surface].back_side; }, settings, context);
         s.maps = maps->build(from, to);
+        out_of_texels = s.maps.limited_tiles > 0;
         live_maps = options.keep_for_updates ? std::move(maps) : nullptr;
         return s.maps.complete;
     };
@@ -301,7 +306,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         refine.rays = 0; // the leaves' own rays carry the light; links only tell where elements are too large
         const std::size_t old_count = s.hierarchy.elements.size();
         links.refine(s.hierarchy, *s.rays, refine, context);
-        statistics.link_budget_reached = links.budget_reached();
+        out_of_links = links.budget_reached();
         s.light_new_leaves(old_count, quality, context);
     };
     if (!s.hierarchy.empty()) {
@@ -402,6 +407,7 @@ SensorReading GiEngine::gather_free(const dvec3& point, const dvec3& normal) con
         return out;
     }
     FieldSettings field = impl_->field;
+    field.direct.spread = 0.0F;
     for (GatherSettings* g : {&field.direct, &field.reflected.bright}) {
         g->rays *= 8; // a single sensor can afford what a picture cannot
         g->sky_rays *= 8;

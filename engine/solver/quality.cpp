@@ -101,6 +101,9 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
     out.first_maps.first_level = 0;
     out.first_maps.max_level = 3;
     out.first_maps.contrast = 0.2F;
+    const auto half_texel = [&](unsigned level) { return 0.5F * out.charts.tile_edge / float(1U << level); };
+    out.field.direct.spread = half_texel(out.maps.max_level);
+    out.first_field.direct.spread = half_texel(out.first_maps.max_level);
     out.caustics.mesh_edge = out.layers.base_edge;
     out.first_layers = out.layers;
     out.first_layers.base_edge = 2.0F * out.layers.base_edge;

@@ -61,7 +61,7 @@ struct Statistics {
     /// what the samples' spread and the size of leaves tell, which is too little where surfaces lie close together.
     double error_estimate = 0;
     ErrorAudit audit;
-    bool link_budget_reached = false; ///< memory ran out for links: some elements are larger than the quality asks for
+    bool link_budget_reached = false; ///< memory ran out: elements or texels are larger than the quality asks for
     std::uint64_t triangles = 0, elements = 0, clusters = 0, links = 0, rays = 0;
     std::uint64_t records = 0; ///< of reflected light that the picture was interpolated from
     std::uint64_t particles_emitted = 0, particles_stored = 0;

@@ -499,11 +499,12 @@ def only_sky(f):
 
 @small
 def facets(f):
-    """CIE 5.3 with every triangle of the room three times: as it is, again, and turned round."""
+    """CIE 5.3 with every triangle of room and lamp three times: as it is, again, and turned round."""
     s, black = 1.0, f.material("black", matt(0.0))
     walls = box((4 * s, 3 * s, 4 * s), (0.0, 1.5 * s, 0.0), inwards=True)
     f.thing("Room", walls + walls + list(reversed(walls)), black)
-    f.thing("Source", ceiling(s, s, 2.999999 * s), f.material("source", matt(0.0, 1000.0 * math.pi)))
+    source = ceiling(s, s, 2.999999 * s)
+    f.thing("Source", source + source + list(reversed(source)), f.material("source", matt(0.0, 1000.0 * math.pi)))
     f.camera(translation=[0.0, 1.0, 1.9])
 
 

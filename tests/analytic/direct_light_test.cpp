@@ -1,5 +1,6 @@
 // Light that comes straight from lamps, sun and sky, and the dark where none may come: closed forms (cases named as in
 // shared/validation).
+#include "engine/base/float_traps.h"
 #include "engine/radiosity/direct_light.h"
 #include "tests/support/rooms.h"
 
@@ -78,6 +79,7 @@ TEST(DirectLight, IsotropicPointSource) {
 }
 
 TEST(DirectLight, LampsThatAreOffHiddenOrBlackDoNotShine) {
+    const FloatTrapsOff no_number_on_purpose;
     for (int way = 0; way < 5; ++way) {
         Scene scene;
         const NodeId id = add_point_light(scene, {0, 2, 0}, 1000);

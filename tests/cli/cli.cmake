@@ -10,4 +10,7 @@ if(TARGET atrium-cli)
   add_test(NAME cli.Documents COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/documents.py -v)
   set_tests_properties(cli.Documents PROPERTIES TIMEOUT 120 ENVIRONMENT
     "ATRIUM_CLI=$<TARGET_FILE:atrium-cli>;ATRIUM_EDITOR=$<$<TARGET_EXISTS:atrium>:$<TARGET_FILE:atrium>>;ATRIUM_SOURCE_DIR=${CMAKE_SOURCE_DIR}")
+  add_test(NAME cli.WorkedExample COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/worked_example.py)
+  set_tests_properties(cli.WorkedExample PROPERTIES TIMEOUT 600 ENVIRONMENT
+    "ATRIUM_CLI=$<TARGET_FILE:atrium-cli>;ATRIUM_SOURCE_DIR=${CMAKE_SOURCE_DIR}")
 endif()

@@ -124,7 +124,7 @@ class InfoAndCheck(CliTest):
         self.assertEqual(result["errors"], 0)
 
     def test_shipped_scenes_have_no_problems(self):
-        for name in ("ring", "glass-ball", "sun-mirror", "lamp", "cabin", "street"):
+        for name in ("ring", "glass-ball", "sun-mirror", "lamp", "empty-room", "cabin", "street"):
             result = json.loads(self.run_cli("check", os.path.join(SOURCE, "scenes", name, name + ".glb"), "--json").stdout)
             self.assertEqual(result["problems"], [], name)
 

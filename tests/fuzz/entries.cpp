@@ -2,8 +2,10 @@
 
 #include "app/cli_points.h"
 #include "engine/io/edit_script_reader.h"
+#include "engine/io/ldt_reader.h"
 #include "engine/io/scene_file.h"
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -57,6 +59,22 @@ int read_as(const char* name, const std::uint8_t* data, std::size_t size) {
     return 0;
 }
 
+int looked_up(const Result<LoadedPhotometry>& read) {
+    if (!read) {
+        require(!read.error().what.empty(), "refused without a reason");
+        return 0;
+    }
+    for (int i = 0; i < 64; ++i) {
+        const float z = 1.0F - 2.0F * (float(i) + 0.5F) / 64.0F, r = std::sqrt(1.0F - z * z), angle = 2.4F * float(i);
+        const float x = read->web->relative({r * std::cos(angle), r * std::sin(angle), z});
+        require(std::isfinite(x) && x >= 0.0F, "light that cannot be");
+    }
+    // What is kept of the file is what scene files hold: it must be read again, to the same.
+    const auto again = parse_ies(read->web->data().file, "again.ies");
+    require(again.has_value(), "what was kept cannot be read");
+    return 0;
+}
+
 std::string text_of(const std::uint8_t* data, std::size_t size) { return {reinterpret_cast<const char*>(data), size}; }
 
 } // namespace
@@ -81,5 +99,8 @@ int points(const std::uint8_t* data, std::size_t size) {
     }
     return 0;
 }
+
+int ies(const std::uint8_t* data, std::size_t size) { return looked_up(parse_ies({data, size}, "a.ies")); }
+int ldt(const std::uint8_t* data, std::size_t size) { return looked_up(parse_ldt({data, size}, "a.ldt")); }
 
 } // namespace atrium::fuzz

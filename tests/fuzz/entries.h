@@ -13,5 +13,7 @@ int glb(const std::uint8_t* data, std::size_t size);     ///< .glb
 int project(const std::uint8_t* data, std::size_t size); ///< .atrium
 int edit_script(const std::uint8_t* data, std::size_t size);
 int points(const std::uint8_t* data, std::size_t size); ///< CSV of sensors
+int ies(const std::uint8_t* data, std::size_t size);    ///< LM-63; what was read is looked up in all directions
+int ldt(const std::uint8_t* data, std::size_t size);    ///< EULUMDAT
 
 } // namespace atrium::fuzz

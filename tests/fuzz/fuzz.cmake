@@ -1,5 +1,5 @@
 # Fuzz targets (preset fuzz, clang) and, in every build, a replay of their seeds and of all that they ever found.
-set(fuzz_entries gltf glb project edit_script points)
+set(fuzz_entries gltf glb project edit_script points ies ldt)
 set(fuzz_sources ${CMAKE_CURRENT_LIST_DIR}/entries.cpp ${CMAKE_SOURCE_DIR}/app/cli_points.cpp ${CMAKE_SOURCE_DIR}/app/cli_support.cpp)
 if(ATRIUM_FUZZ)
   foreach(entry ${fuzz_entries})

@@ -10,14 +10,12 @@
 
 int main(int argc, char** argv) {
     using namespace atrium;
-    const std::map<std::string, int (*)(const std::uint8_t*, std::size_t)> entries = {{"gltf", fuzz::gltf},
-                                                                                      {"glb", fuzz::glb},
-                                                                                      {"project", fuzz::project},
-                                                                                      {"edit_script", fuzz::edit_script},
-                                                                                      {"points", fuzz::points}};
+    const std::map<std::string, int (*)(const std::uint8_t*, std::size_t)> entries = {
+        {"gltf", fuzz::gltf},     {"glb", fuzz::glb}, {"project", fuzz::project}, {"edit_script", fuzz::edit_script},
+        {"points", fuzz::points}, {"ies", fuzz::ies}, {"ldt", fuzz::ldt}};
     const auto entry = argc > 2 ? entries.find(argv[1]) : entries.end();
     if (entry == entries.end()) {
-        std::fputs("usage: fuzz_replay gltf|glb|project|edit_script|points FILE...\n", stderr);
+        std::fputs("usage: fuzz_replay gltf|glb|project|edit_script|points|ies|ldt FILE...\n", stderr);
         return 1;
     }
     for (int i = 2; i < argc; ++i) {

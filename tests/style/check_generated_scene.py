@@ -16,6 +16,7 @@ SCENES = [
     ("glass-ball", "make_glass_ball.py", ["glass-ball.glb"]),
     ("sun-mirror", "make_sun_mirror.py", ["sun-mirror.glb"]),
     ("lamp", "make_lamp.py", ["lamp.glb"]),
+    ("empty-room", "make_empty_room.py", ["empty-room.glb"]),
     ("cabin", "make_cabin.py", ["cabin.glb", "drag.json", "edits.json"]),
     ("street", "make_street.py", ["street.glb", "drag.json", "edits.json"]),
     ("luminaires", "make_luminaires.py", ["narrow_downlight.ies", "wall_washer.ies", "linear_pendant.ies"]),

@@ -1,4 +1,5 @@
 // Rays against small scenes whose answers are plain to see.
+#include "engine/base/float_traps.h"
 #include "engine/raycast/ray_scene.h"
 #include "tests/support/rooms.h"
 
@@ -203,6 +204,7 @@ TEST(RayScene, BlendedSurfaceLetsItsShareThrough) {
 }
 
 TEST(RayScene, DegenerateAndNonFiniteTrianglesAreDroppedAndCounted) {
+    const FloatTrapsOff no_number_on_purpose;
     Scene scene;
     auto data = std::make_shared<MeshData>();
     const float nan = std::numeric_limits<float>::quiet_NaN();
