@@ -232,6 +232,14 @@ class Stopping(CliTest):
         self.assertTrue(s["stopped"])
         self.assertFalse(s["converged"])
 
+    def test_time_is_a_wish_for_the_best_light(self):
+        start = time.monotonic()
+        self.run_cli("solve", self.room, "--time", "20", "--stats", self.path("s.json"))
+        self.assertLess(time.monotonic() - start, 24.0)
+        s = json.loads(self.read("s.json"))
+        self.assertFalse(s["stopped"])
+        self.assertIn(s["quality"], ("normal", "fine"))  # the draft takes a fraction of a second
+
     def test_stopped_solve_falls_back_on_stored_light(self):
         project = self.path("room.atrium")
         self.run_cli("solve", self.room, "-o", project, "--quality", "draft")
