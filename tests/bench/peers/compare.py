@@ -179,6 +179,10 @@ def table(rows):
     return '\n'.join(out)
 
 
+def seconds(t):
+    return f'{t:.2f}' if t < 10.0 else f'{t:,.0f}'
+
+
 def rows_of(rows, scene, state):
     """What was done in a state; other programs start from nothing in either."""
     return [r for r in rows if r['scene'] == scene and (r['state'] == state or r['program'] != 'Atrium') and r['cpu'] > 0.0]
@@ -196,7 +200,7 @@ def summary(rows):
                 cells = []
                 for level in LEVELS:
                     t = time_to(own, level, measure, program == 'Cycles, unbiased')
-                    cells.append('-' if t is None else f"{t[0]:.2g}{'*' if t[1] == 'extrapolated' else ''}")
+                    cells.append('-' if t is None else seconds(t[0]) + ('*' if t[1] == 'extrapolated' else ''))
                 out.append(f"| {scene} | {state} | {measure} | {program} | " + ' | '.join(cells) + ' |')
     return '\n'.join(out)
 
@@ -205,7 +209,8 @@ def curves(rows, a):
     for scene, state in dict.fromkeys((r['scene'], r['state']) for r in rows):
         series = {}
         for r in rows_of(rows, scene, state):
-            series.setdefault(r['program'], []).append((r['cpu'], r['relative']))
+            stage = ', ' + r['setting'].split(', ')[1] if r['program'] == 'Atrium' else ''
+            series.setdefault(r['program'] + stage, []).append((r['cpu'], r['relative']))
             if r['program'] == 'Cycles, unbiased':
                 series.setdefault(r['program'] + ', 9 x 9', []).append((r['cpu'], r['smooth']))
         plot.log_log(a.work / f'{scene}_{state}.svg', f'{scene}, {"from nothing" if state == "cold" else "after the move"}',
