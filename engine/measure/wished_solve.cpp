@@ -20,9 +20,11 @@ struct Step {
     double cost;
     bool whole; ///< a step on the way to an error; the others are for times in between
 };
-constexpr Step kSteps[] = {{Quality::Draft, 0.0, 1.0, true},  {Quality::Normal, 0.10, 3.5, false},
-                           {Quality::Normal, 0.0, 5.0, true}, {Quality::Fine, 0.04, 16.0, false},
-                           {Quality::Fine, 0.0, 32.0, true},  {Quality::Fine, 0.01, 70.0, true}};
+constexpr Step kSteps[] = {{Quality::Draft, 0.0, 1.0, true},
+                           {Quality::Normal, 0.10, 3.5, false},
+                           {Quality::Normal, 0.0, 5.0, true},
+                           {Quality::Fine, 0.04, 16.0, false},
+                           {Quality::Fine, 0.0, 32.0, true}};
 constexpr std::size_t kNoStep = std::size(kSteps);
 
 double seconds_between(Clock::time_point a, Clock::time_point b) { return std::chrono::duration<double>(b - a).count(); }
