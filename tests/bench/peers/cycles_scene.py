@@ -77,6 +77,17 @@ def pane(tree, m):
     return mix
 
 
+def absorb(tree, end, color, distance):
+    """A solid that lets `color` through along `distance` metres: Cycles takes density * (1 - color) a metre."""
+    if distance <= 0.0 or min(color) >= 1.0:
+        return
+    per_metre = [-math.log(max(c, 1e-4)) / distance for c in color]
+    volume = tree.nodes.new('ShaderNodeVolumeAbsorption')
+    volume.inputs['Density'].default_value = max(per_metre)
+    volume.inputs['Color'].default_value = rgb([1.0 - a / max(per_metre) for a in per_metre])
+    tree.links.new(volume.outputs[0], end.inputs['Volume'])
+
+
 def make_material(m):
     out, tree, end = nodes_of(m['name'])
     if m['kind'] == 'metal':
@@ -84,9 +95,7 @@ def make_material(m):
     elif m['kind'] == 'glass':
         shader = lobe(tree, 'ShaderNodeBsdfGlass', m)
         shader.inputs['IOR'].default_value = m['ior']
-        color, distance = m['attenuation']
-        if distance > 0.0 and min(color) < 1.0:
-            raise SystemExit('glass that absorbs is not exported: ' + m['name'])
+        absorb(tree, end, *m['attenuation'])
     elif m['kind'] == 'pane':
         shader = pane(tree, m)
     else:
