@@ -4,6 +4,7 @@ import base64
 import json
 import math
 import os
+import shutil
 import struct
 
 COMPONENTS = {5120: 'b', 5121: 'B', 5122: 'h', 5123: 'H', 5125: 'I', 5126: 'f'}
@@ -152,7 +153,7 @@ def read(path):
 
 def write(path, changed, name=None, by=(0.0, 0.0, 0.0), metals_on_both_sides=False):
     """Writes the file again: with the node of that name moved in its parent's space, and with metals that mirror on both sides, as
-    they do in programs that know no sides. Buffers are taken in, pictures must stay where they are."""
+    they do in programs that know no sides. Buffers are taken in, pictures copied beside it: Atrium opens none from elsewhere."""
     gltf = Gltf(path)
     g = gltf.json
     if name is not None:
@@ -167,6 +168,8 @@ def write(path, changed, name=None, by=(0.0, 0.0, 0.0), metals_on_both_sides=Fal
         buffer['uri'] = 'data:application/octet-stream;base64,' + base64.b64encode(data[:buffer['byteLength']]).decode()
     for image in g.get('images', []):
         if 'uri' in image and not image['uri'].startswith('data:'):
-            image['uri'] = os.path.relpath(os.path.join(gltf.folder, image['uri']), os.path.dirname(os.path.abspath(changed)))
+            name = os.path.basename(image['uri'])
+            shutil.copyfile(os.path.join(gltf.folder, image['uri']), os.path.join(os.path.dirname(os.path.abspath(changed)), name))
+            image['uri'] = name
     with open(changed, 'w') as file:
         json.dump(g, file)
