@@ -3,6 +3,7 @@
 #include "app/cli_stats.h"
 #include "engine/base/parallel.h"
 #include "engine/measure/error_audit.h"
+#include "engine/measure/wished_solve.h"
 #include "engine/scene/daylight.h"
 #include "engine/solver/memory_budget.h"
 
@@ -40,29 +41,32 @@ bool good_enough(const Solution& stored, const SolveArguments& arguments) {
     return !arguments.error || (s.audit.points > 0 && s.error_estimate <= *arguments.error);
 }
 
-/// Measures the error of light just made. What was stopped gets a quick look: the time is over.
-std::shared_ptr<const Solution> look_at_error(const Solved& solved, std::shared_ptr<const Solution> solution,
-                                              const SolveOptions& options, const SolveArguments& arguments,
+/// What the arguments wish instead of a quality, and whether anything is to say how far off the light is.
+SolveWish wish_of(const SolveArguments& arguments, bool need_engine) {
+    SolveWish wish;
+    wish.error = arguments.error.value_or(0.0);
+    wish.from_quality = arguments.quality.has_value();
+    // What is begun in vain leaves an engine without the light that is returned.
+    wish.best_in_time = arguments.time && !arguments.quality && !need_engine;
+    wish.audit = arguments.audit || !arguments.stats.empty() || arguments.error;
+    return wish;
+}
+
+/// The error of stored light that was never measured.
+std::shared_ptr<const Solution> look_at_error(const Solved& solved, const SolveArguments& arguments,
                                               const RunContext& context) {
-    if (!arguments.audit && arguments.stats.empty() && !arguments.error) {
-        return solution;
+    const SolveWish wish = wish_of(arguments, false);
+    if (!wish.audit) {
+        return solved.solution;
     }
     context.progress("audit", 1.0);
     RunContext unhurried;
     unhurried.stop = context.stop;
-    AuditSettings settings = audit_settings(solution->final ? options.quality : SolverSettings::Quality::Draft);
+    SolveOptions options;
+    set_options(options, solved.scene, arguments);
+    AuditSettings settings = audit_settings(options.quality);
     settings.seed = options.seed;
-    return audited(solved.scene, std::move(solution), settings, unhurried);
-}
-
-/// The next better quality, where the error wished for is not reached; false at the end of them.
-bool go_finer(SolveOptions& options) {
-    switch (options.quality) {
-    case SolverSettings::Quality::Draft: options.quality = SolverSettings::Quality::Normal; return true;
-    case SolverSettings::Quality::Normal: options.quality = SolverSettings::Quality::Fine; return true;
-    case SolverSettings::Quality::Fine: return false;
-    }
-    return false;
+    return audited(solved.scene, solved.solution, settings, unhurried);
 }
 
 } // namespace
@@ -95,7 +99,10 @@ void add_solve_options(CLI::App& command, SolveArguments& a) {
                     "the measured error is as small")
         ->check(CLI::Range(1e-6, 1.0))
         ->group(group);
-    command.add_option("--time", a.time, "Stop after this many seconds with what there is (exit status 2)")
+    command
+        .add_option("--time", a.time,
+                    "Seconds in which the best light is wanted: the finest that is likely to be complete by then. With "
+                    "--quality their limit: stopped with what there is (exit status 2)")
         ->check(CLI::Range(1e-3, 1e7))
         ->group(group);
     command.add_option("--threads", a.threads, "Number of worker threads, 0 = one per core")
@@ -162,9 +169,7 @@ int light_up(Solved& solved, const SolveArguments& arguments, bool need_engine, 
     const RunContext context = context_for(arguments);
     if (solved.from_file && !need_engine) {
         if (solved.solution->statistics.audit.points == 0) { // of an older project
-            SolveOptions options;
-            set_options(options, solved.scene, arguments);
-            solved.solution = look_at_error(solved, solved.solution, options, arguments, context);
+            solved.solution = look_at_error(solved, arguments, context);
             finish_progress();
         }
         return kDone;
@@ -175,25 +180,7 @@ int light_up(Solved& solved, const SolveArguments& arguments, bool need_engine, 
     }
     SolveOptions options;
     set_options(options, solved.scene, arguments);
-    if (arguments.error && !arguments.quality) {
-        options.quality = SolverSettings::Quality::Draft; // as much as the wish takes, no more
-    }
-    Result<std::shared_ptr<const Solution>> result = nullptr;
-    for (;;) {
-        auto next = solved.engine.solve(solved.scene, options, context, on_snapshot);
-        if (next) {
-            next = look_at_error(solved, *next, options, arguments, context);
-        }
-        // A better quality that was stopped before its last picture does not replace a complete one.
-        const bool better = !result || *result == nullptr || (next && (*next)->final);
-        if (better) {
-            result = std::move(next);
-        }
-        if (!better || !result || !(*result)->final || !arguments.error ||
-            (*result)->statistics.error_estimate <= *arguments.error || !go_finer(options)) {
-            break;
-        }
-    }
+    auto result = solve_to_wish(solved.engine, solved.scene, options, wish_of(arguments, need_engine), context, on_snapshot);
     finish_progress();
     if (result && arguments.error && (*result)->statistics.error_estimate > *arguments.error) {
         complain(fmt::format("{}: asked for an error of {:.1f} %, reached {:.1f} % at quality {}", solved.file,

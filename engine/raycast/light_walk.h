@@ -1,9 +1,25 @@
 // The way of light over mirrors, metals and glass, one surface at a time.
 #pragma once
 
+#include "engine/optics/specular.h"
 #include "engine/raycast/ray_scene.h"
 
 namespace atrium {
+
+/// A place that a ray has met, as what bends light there sees it. Normals are on the side that the ray came from; one that
+/// interpolation has turned away from the ray is the geometric one.
+struct WalkPoint : SpecularPoint {
+    vec3 position{0.0F};  ///< hit_position()
+    float cover = 1.0F;   ///< alpha of a blended surface, else 1
+    bool mirrors = false; ///< mirrors or refracts on this side; backs of metals are black where the file says one-sided
+};
+WalkPoint walk_point(const RayScene& rays, const Hit& hit, const vec3& direction);
+
+/// What a solid leaves of light that has come through it to this point; 1 elsewhere.
+Rgb left_by_solid(const WalkPoint& at, const Hit& hit);
+
+/// A point moved off its surface by a few roundings of its coordinates, at least 10 micrometres.
+vec3 off_surface(const vec3& position, const vec3& normal);
 
 /// A ray on its way. Light may be followed from where it comes or back from where it arrives: the weights are the same.
 struct LightWay {

@@ -32,14 +32,14 @@ EyeLight EyeTracer::look(const Ray& first, std::uint32_t seed) const {
             break;
         }
         const EyeSurface at = eye_surface(rays_, hit, ray.direction);
-        ray.origin = off_surface(at.position, -at.side);
+        ray.origin = off_surface(at.position, -at.geometric);
         if (at.culled()) {
             continue; // as in the viewport: one looks into a room through the back of its walls
         }
         if (max_component(at.through) < 0.5F) {
             Rgb albedo = at.diffuse;
-            if (at.specular) {
-                const SpecularWays ways = at.ways(rays_, vec2(0.5F));
+            if (at.mirrors) {
+                const SpecularWays ways = at.ways(vec2(0.5F));
                 albedo += ways.reflected.weight + ways.transmitted.weight;
             }
             out.meet(at, glm::length(at.position - first.origin), albedo);
@@ -56,7 +56,8 @@ EyeLight EyeTracer::look(const Ray& first, std::uint32_t seed) const {
             out.diffuse += share(shares_.diffuse, {true, false, false});
             out.caustic += share(shares_.caustic, {false, false, true});
         }
-        if (at.specular) {
+        if (at.mirrors) {
+            out.rough = !out.over ? at.material->roughness >= kMirrorRoughness : out.rough;
             out.over = true;
             out.specular += weight * over(at, 0, max_component(weight), seed);
         }
@@ -79,7 +80,7 @@ Rgb EyeTracer::beyond(const Ray& first, int depth, float throughput, std::uint32
         if (max_component(at.diffuse) > 0.0F) {
             sum += weight * at.diffuse * kInvPi * lit_.irradiance(hit);
         }
-        if (at.specular) {
+        if (at.mirrors) {
             sum += weight * over(at, depth, throughput * max_component(weight), seed);
         }
         weight *= at.through;
@@ -93,7 +94,7 @@ Rgb EyeTracer::over(const EyeSurface& at, int depth, float throughput, std::uint
     const int count = rough && depth == 0 ? kLobeRays : 1;
     Rgb sum(0.0F);
     for (int i = 0; i < count; ++i) {
-        const SpecularWays ways = at.ways(rays_, rough ? sobol_owen2(std::uint32_t(i), 0, seed) : vec2(0.5F));
+        const SpecularWays ways = at.ways(rough ? sobol_owen2(std::uint32_t(i), 0, seed) : vec2(0.5F));
         const std::uint32_t next = std::uint32_t(hash64((std::uint64_t(seed) << 8) + std::uint64_t(i)));
         sum +=
             on_way(at, ways.reflected, depth, throughput, next) + on_way(at, ways.transmitted, depth, throughput, next + 1);

@@ -15,8 +15,9 @@ struct EyeLight {
     Rgb albedo{0.0F};
     vec3 normal{0.0F};
     float depth = 0.0F;
-    Rgb read{0.0F};    ///< of a final pass: what the layers have for `diffuse`, which is gathered
-    bool over = false; ///< the ray met a mirror, a metal or glass before anything that it ends at
+    Rgb read{0.0F};     ///< of a final pass: what the layers have for `diffuse`, which is gathered
+    bool over = false;  ///< the ray met a mirror, a metal or glass before anything that it ends at
+    bool rough = false; ///< and that was rough
 
     [[nodiscard]] Rgb sum() const { return direct + diffuse + caustic + specular; }
     /// Tells what the first surface is; the first call counts.

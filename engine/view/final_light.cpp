@@ -239,7 +239,8 @@ void FinalLight::gather(const vec3& point, const vec3& normal, const vec2& u, co
                 // Close by, layers are interpolated over more than what matters: look again from there.
                 const bool near = way.bends == 0 && depth == 0 && distance < near_;
                 const Rgb there =
-                    near ? FinalLight::at(off_surface(at.position, at.side), at.side, sampler, group + kGroups, 1).sum() +
+                    near ? FinalLight::at(off_surface(at.position, at.geometric), at.geometric, sampler, group + kGroups, 1)
+                                   .sum() +
                                lit_.irradiance(hit, {false, false, true})
                          : lit_.irradiance(hit);
                 out.diffuse += share * at.diffuse * kInvPi * there;

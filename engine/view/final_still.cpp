@@ -40,7 +40,7 @@ public:
                 continue;
             }
             const vec4 u = sampler.group(kWayGroup + std::min(met, 64U));
-            const SpecularWays ways = at.ways(rays_, {u.x, u.y});
+            const SpecularWays ways = at.ways({u.x, u.y});
             if (bends == 0 && max_component(at.through) < 0.5F) {
                 out.meet(at, glm::length(at.position - first.origin),
                          at.diffuse + ways.reflected.weight + ways.transmitted.weight);
@@ -95,7 +95,7 @@ private:
         }
         // Surfaces that let some light through are met in one path with what is behind them: other numbers for those.
         const std::uint32_t group = met < 4 ? kLightGroup : 1024 + met * 16;
-        PointLight light = light_.at(off_surface(at.position, at.side), at.side, sampler, group);
+        PointLight light = light_.at(off_surface(at.position, at.geometric), at.geometric, sampler, group);
         if (!gather_) {
             light.diffuse = lit_.irradiance(at.hit, {true, false, false});
         }

@@ -43,6 +43,10 @@ Ray CameraRays::through(float x, float y) const {
     return {eye_ + sx * right_ + sy * up_, forward_};
 }
 
+float CameraRays::depth_of(const vec3& point) const {
+    return glm::dot(right_, glm::cross(up_, point - eye_)) / glm::dot(right_, glm::cross(up_, forward_));
+}
+
 std::optional<vec2> CameraRays::pixel_of(const vec3& point) const {
     // A sheared camera's axes are not at right angles: solve for what of each leads to the point.
     const vec3 d = point - eye_;
@@ -50,7 +54,7 @@ std::optional<vec2> CameraRays::pixel_of(const vec3& point) const {
     const float x = glm::dot(d, glm::cross(up_, forward_)) / volume;
     const float y = glm::dot(right_, glm::cross(d, forward_)) / volume;
     const float z = glm::dot(right_, glm::cross(up_, d)) / volume;
-    if (perspective_ && !(z > 1e-4F)) {
+    if (perspective_ && !(z > kNearest)) {
         return std::nullopt;
     }
     const vec2 s = vec2(x, y) / (perspective_ ? z : 1.0F) / half_height_;

@@ -18,6 +18,9 @@ public:
     [[nodiscard]] Ray through(float x, float y) const;
     /// Where a point of the scene appears, pixels from the upper left corner, also beside the picture; none behind the eye.
     [[nodiscard]] std::optional<vec2> pixel_of(const vec3& point) const;
+    /// Metres before the eye along the camera's axis; what is closer than kNearest is not seen in perspective.
+    [[nodiscard]] float depth_of(const vec3& point) const;
+    static constexpr float kNearest = 1e-4F;
 
 private:
     vec3 eye_, right_, up_, forward_;

@@ -17,7 +17,8 @@ struct SpecularPixels {
     int width = 0;
     int height = 0;
     std::vector<vec4> pixels; ///< rows from the top
-    int samples = 0;          ///< a pixel, so far
+    int samples = 0;          ///< a pixel, of those traced last
+    bool complete = false;    ///< all have as many: nothing better follows
 };
 
 /// A scene with its light, ready to be looked at from any place. Immutable; safe from any thread.
@@ -30,9 +31,10 @@ public:
 
     /// A shown surface of the scene mirrors or refracts; without any there is nothing to do and nothing is built.
     static bool any(const Scene& scene);
-    /// Traces only pixels near such surfaces: one sample each, then n x n. `watcher` is called on the calling thread with
-    /// each of the two. Mirrors and glass show all light; of what lies straight behind clear panes `shares`. Stops within
-    /// some milliseconds when the context says so; what was not handed to the watcher is then lost.
+    /// Traces only pixels near such surfaces: one sample each, then n x n where neighbours differ, then n x n in the others.
+    /// `watcher` is called on the calling thread with each of the three. Mirrors and glass show all light; of what lies
+    /// straight behind clear panes `shares`. Stops within some milliseconds when the context says so; what was not handed to
+    /// the watcher is then lost.
     void look(const ViewCamera& camera, int width, int height, int n, const LightShares& shares, const RunContext& context,
               const std::function<void(SpecularPixels)>& watcher) const;
 

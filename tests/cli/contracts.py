@@ -232,6 +232,16 @@ class Stopping(CliTest):
         self.assertTrue(s["stopped"])
         self.assertFalse(s["converged"])
 
+    def test_time_is_a_wish_for_the_best_light(self):
+        start = time.monotonic()
+        self.run_cli("solve", self.room, "--time", "20", "--stats", self.path("s.json"))
+        took = time.monotonic() - start
+        self.assertLess(took, 24.0)
+        s = json.loads(self.read("s.json"))
+        self.assertFalse(s["stopped"])
+        # A draft is left only where better light could not be expected in time, or was begun in vain.
+        self.assertTrue(s["quality"] != "draft" or s["time"]["solve"] > 20.0 / 6.0 or took > 15.0, (s["quality"], s["time"], took))
+
     def test_stopped_solve_falls_back_on_stored_light(self):
         project = self.path("room.atrium")
         self.run_cli("solve", self.room, "-o", project, "--quality", "draft")

@@ -6,6 +6,8 @@ if(TARGET atrium_ui)
   target_link_libraries(viewport_tests PRIVATE atrium_ui Qt6::Test GTest::gtest)
   target_compile_definitions(viewport_tests PRIVATE ATRIUM_SHARED_DIR="${CMAKE_SOURCE_DIR}/../shared")
   target_precompile_headers(viewport_tests REUSE_FROM atrium_ui)
+  set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/specular_overlay_test.cpp PROPERTIES
+    COMPILE_DEFINITIONS ATRIUM_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   find_program(XVFB_RUN xvfb-run)
   if(XVFB_RUN)
     foreach(scale 1 1.5)

@@ -53,14 +53,22 @@ void SpecularOverlay::start() {
             try {
                 if (!view) {
                     view = std::make_shared<const SpecularView>(request.scene, *request.solution);
+                    // Kept even if the view moves on before anything is traced: the scene stays the same.
+                    QMetaObject::invokeMethod(
+                        QCoreApplication::instance(),
+                        [self, view, solution = request.solution, revision = request.revision] {
+                            if (self && self->view_solution_ == solution && self->view_revision_ == revision) {
+                                self->view_ = view;
+                            }
+                        },
+                        Qt::QueuedConnection);
                 }
                 const auto hand_back = [&](SpecularPixels made) {
                     auto pixels = std::make_shared<const SpecularPixels>(std::move(made));
                     QMetaObject::invokeMethod(
                         QCoreApplication::instance(),
-                        [self, pixels, view, number] {
+                        [self, pixels, number] {
                             if (self && self->number_ == number) {
-                                self->view_ = view;
                                 self->pixels_ = pixels;
                                 Q_EMIT self->ready();
                             }
