@@ -370,7 +370,9 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     look_at.anew = follow_lamps ? live.lamps->part : LightChange::kNone;
     if (options.settle) {
         for (const auto& [surface, d] : live.displaced) {
-            look_at.boxes.push_back(d.before);
+            if (!d.before.empty()) { // it was there
+                look_at.boxes.push_back(d.before);
+            }
             if (!d.now.empty()) {
                 look_at.boxes.push_back(d.now);
                 look_at.moved[surface] = 1;
