@@ -112,19 +112,41 @@ void GiEngine::take_in(Impl& s, std::uint32_t first) {
 }
 
 // Layers of the surfaces from `first` up to `last` without any reflected light: updates gather that for vertices of their
-// own.
+// own. Where it changes decides where vertices are, all the same, unless a first look is all that is wanted.
 LayerSet GiEngine::lay_out(const Impl& s, std::uint32_t first, std::uint32_t last, LayerSettings settings,
                            const RunContext& context) {
+    const bool first_look = settings.base_edge > s.live->quality.layers.base_edge;
     settings.keep_places = true;
     settings.light_floor = s.live->light_floor;
     settings.first_surface = first;
     settings.last_surface = last;
-    const LightField field{{},
-                           [](const vec3&, const vec3&) { return DirectSample{}; },
-                           [&](const vec3& p, const vec3& n) { return s.direct_light(p, n, s.field.direct); }};
-    return build_layers(
+    LightField field{{},
+                     [](const vec3&, const vec3&) { return DirectSample{}; },
+                     [&](const vec3& p, const vec3& n) { return s.direct_light(p, n, s.field.direct); }};
+    std::unique_ptr<IndirectGather> gather;
+    std::unique_ptr<IrradianceCache> cache;
+    if (!first_look) {
+        CacheSettings records = s.field.cache;
+        records.light_floor = s.live->light_floor;
+        gather = s.gather_reflected();
+        cache = std::make_unique<IrradianceCache>(
+            *s.rays, [&](const vec3& p, const vec3& n) { return gather->irradiance(p, n, s.field.reflected); }, records);
+        field.prepare = [&](std::span<const SurfacePoint> points) { return cache->cover(points, context); };
+        field.reflected = [&](const vec3& p, const vec3& n) {
+            const FieldSample sample = cache->at(p, n);
+            return DirectSample{sample.irradiance, sample.variance};
+        };
+    }
+    LayerSet out = build_layers(
         *s.rays, field, {s.charts, s.maps.front, s.maps.back}, settings, [](std::uint32_t) { return true; }, context, 0.0,
         0.0);
+    for (std::size_t i = 0; i < out.surfaces.size() && !first_look; ++i) {
+        auto layer = std::make_shared<SurfaceLayer>(*out.surfaces[i]);
+        std::fill(layer->irradiance_front.begin(), layer->irradiance_front.end(), Rgb(0.0F));
+        std::fill(layer->irradiance_back.begin(), layer->irradiance_back.end(), Rgb(0.0F));
+        out.surfaces[i] = std::move(layer);
+    }
+    return out;
 }
 
 // Charts and light maps of what has none yet, as in a complete solution. False when asked to stop: nothing has changed.
