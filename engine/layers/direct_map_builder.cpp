@@ -186,6 +186,9 @@ struct LiveDirectMaps::Impl {
         return parts_.size() - 1;
     }
 
+    // What sheets point at are single charts, which stay where they are.
+    void charts_are(std::span<const SurfaceCharts> charts) { charts_ = charts; }
+
     [[nodiscard]] std::size_t memory_bytes() const {
         std::size_t bytes = 0;
         for (const auto& part : parts_) {
@@ -375,6 +378,7 @@ bool LiveDirectMaps::take_out(std::span<const LeavingLight> light, const RunCont
 std::size_t LiveDirectMaps::add_part(DirectPart part, const RunContext& context) {
     return impl_->add_part(std::move(part), context);
 }
+void LiveDirectMaps::charts_are(std::span<const SurfaceCharts> charts) { impl_->charts_are(charts); }
 void LiveDirectMaps::add_light(const SourceLight& source, const Rgb& change) { impl_->add_light(source, change); }
 std::size_t LiveDirectMaps::memory_bytes() const { return impl_->memory_bytes(); }
 

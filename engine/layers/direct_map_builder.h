@@ -126,6 +126,8 @@ public:
     /// Adds a part without any light, for LightChange::anew to look at before all else; returns its number. One at most is
     /// looked at so.
     std::size_t add_part(DirectPart part, const RunContext& context);
+    /// The charts lie elsewhere in memory now; those of new surfaces behind all others are not looked at.
+    void charts_are(std::span<const SurfaceCharts> charts);
     /// Makes a source brighter by `change`, for repairs to start from; maps that show it already are the caller's.
     void add_light(const SourceLight& source, const Rgb& change);
     [[nodiscard]] std::size_t memory_bytes() const;

@@ -70,7 +70,8 @@ private:
     void collect() {
         std::map<NodeId, std::size_t> mesh_of;
         const auto& surfaces = rays_.surfaces();
-        for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
+        const auto last = std::min(std::uint32_t(surfaces.size()), settings_.last_surface);
+        for (std::uint32_t s = settings_.first_surface; s < last; ++s) {
             const auto [it, fresh] = mesh_of.try_emplace(surfaces[s].node, meshes_.size());
             if (fresh) {
                 meshes_.emplace_back();

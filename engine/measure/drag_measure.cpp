@@ -128,7 +128,9 @@ Result<DragMeasurement> measure_drag(Scene scene, NodeId node, const std::vector
     out.solved = (*before)->statistics;
     checks = std::min(checks, positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) {
-        scene.nodes.find(node)->transform.translation = positions[i];
+        Node& moved = *scene.nodes.find(node);
+        moved.transform.translation = positions[i];
+        moved.visible = true;
         const auto asked = Clock::now();
         const auto followed = engine.update(scene, options, context);
         DragFrame frame;

@@ -40,8 +40,8 @@ struct DragMeasurement {
 };
 
 /// Solves, drags `node` through `positions` (in its parent's space) and takes the error at `checks` frames spread over the
-/// drag, the last one among them, each at the cost of a new solution; after each of these the light is settled. An error
-/// where the engine refuses, when stopped, or when there is nothing to do.
+/// drag, the last one among them, each at the cost of a new solution; after each of these the light is settled. A node that
+/// is hidden comes with the first position. An error where the engine refuses, when stopped, or when there is nothing to do.
 Result<DragMeasurement> measure_drag(Scene scene, NodeId node, const std::vector<dvec3>& positions, SolveOptions options,
                                      std::size_t checks, std::size_t points, const RunContext& context);
 

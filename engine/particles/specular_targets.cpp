@@ -86,6 +86,7 @@ SpecularTargets::SpecularTargets(const RayScene& rays) : of_triangle_(rays.surfa
 }
 
 void SpecularTargets::follow(const RayScene& rays, std::span<const std::uint32_t> moved_surfaces) {
+    of_triangle_.resize(rays.surfaces().size());
     for (const std::uint32_t s : moved_surfaces) {
         if (of_triangle_[s].empty()) {
             continue;

@@ -21,7 +21,8 @@ public:
     static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
     explicit SpecularTargets(const RayScene& rays);
 
-    /// Gives the pieces of surfaces that moved their new bounds; what triangles they are of stays.
+    /// Gives the pieces of surfaces that moved their new bounds; what triangles they are of stays. Surfaces that are new are
+    /// none of mirrors, metals or glass.
     void follow(const RayScene& rays, std::span<const std::uint32_t> moved_surfaces);
 
     [[nodiscard]] bool empty() const { return targets_.empty(); }

@@ -138,6 +138,8 @@ struct Hierarchy {
     std::vector<std::array<std::uint32_t, 2>> top; ///< per triangle, front and back: its Faces or topmost Patch, or kNone
     std::vector<std::uint32_t> room; ///< per element, leaves only: a number for its room, kNone where it stands alone;
                                      ///< empty where all is one room or nobody has looked (see mark_rooms())
+    /// Elements from here on are of trees that append_to_hierarchy() made: the root knows nothing of them.
+    std::uint32_t first_appended = Element::kNone;
     HierarchySettings settings;
 
     [[nodiscard]] bool empty() const { return elements.empty(); }
@@ -176,5 +178,10 @@ SurfacePoint sample_point(const Hierarchy& hierarchy, const RayScene& rays, std:
 /// patches, one a side, however many triangles they have; what is smaller is grouped by place and normal. Emitting and other
 /// surfaces are in separate subtrees of the root. O(n log n). Of no use when stopped.
 Hierarchy build_hierarchy(const RayScene& rays, const HierarchySettings& settings, const RunContext& context = {});
+
+/// Appends a tree of its own over the surfaces from `first_surface` on, which the hierarchy does not know yet: see
+/// Hierarchy::first_appended. Settings are the hierarchy's, but for the sizes. In O(n log n) of what is new.
+void append_to_hierarchy(Hierarchy& hierarchy, const RayScene& rays, std::uint32_t first_surface,
+                         const HierarchySettings& sizes);
 
 } // namespace atrium

@@ -16,8 +16,9 @@ constexpr float kOneSided = 0.7F; // |sum of area vectors| / area from which a g
 
 class Builder {
 public:
-    Builder(const RayScene& rays, Hierarchy& out, const RunContext& context)
-        : rays_(rays), out_(out), context_(context), stop_(context, kMeshStride) {}
+    /// Of the surfaces from `first_surface` on, as a tree of its own in `out`.
+    Builder(const RayScene& rays, Hierarchy& out, const RunContext& context, std::uint32_t first_surface = 0)
+        : rays_(rays), out_(out), context_(context), stop_(context, kMeshStride), first_(first_surface) {}
 
     void run() {
         divide_surfaces();
@@ -33,15 +34,17 @@ public:
         if (context_.should_stop()) {
             return;
         }
+        const auto root = std::uint32_t(out_.elements.size());
+        const std::uint64_t path = hash64(out_.settings.seed);
         out_.elements.emplace_back();
-        out_.elements[0].path = hash64(out_.settings.seed);
+        out_.elements[root].path = first_ == 0 ? path : hash_combine(path, first_);
         std::vector<std::span<Item>> parts;
         for (const std::size_t emits : {1U, 0U}) {
             if (!items_[emits].empty()) {
                 parts.emplace_back(items_[emits]);
             }
         }
-        make_children(0, parts);
+        make_children(root, parts);
     }
 
 private:
@@ -63,28 +66,30 @@ private:
     // Planar pieces of a surface that are large enough become sheets, the other triangles loose faces.
     void divide_surfaces() {
         const auto& surfaces = rays_.surfaces();
-        std::vector<PlanarRegions> pieces(surfaces.size());
-        parallel_chunks(surfaces.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (std::size_t s = begin; s < end && !context_.should_stop(); ++s) {
-                pieces[s] = planar_regions(*surfaces[s].positions, surfaces[s].triangles, {kSheetFlatness}, context_);
+        std::vector<PlanarRegions> pieces(surfaces.size() - first_);
+        parallel_chunks(pieces.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t i = begin; i < end && !context_.should_stop(); ++i) {
+                const RaySurface& surface = surfaces[first_ + i];
+                pieces[i] = planar_regions(*surface.positions, surface.triangles, {kSheetFlatness}, context_);
             }
         });
         if (context_.should_stop()) {
             return;
         }
-        std::size_t triangles = 0;
-        for (const RaySurface& surface : surfaces) {
+        std::size_t triangles = out_.on_sheet.size();
+        for (std::size_t s = first_; s < surfaces.size(); ++s) {
             out_.first_triangle.push_back(triangles);
-            triangles += surface.triangles.size();
+            triangles += surfaces[s].triangles.size();
         }
-        out_.on_sheet.assign(triangles, Element::kNone);
-        out_.top.assign(triangles, {Element::kNone, Element::kNone});
-        for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
-            for (const PlanarRegion& region : pieces[s].regions) {
+        out_.on_sheet.resize(triangles, Element::kNone);
+        out_.top.resize(triangles, {Element::kNone, Element::kNone});
+        for (std::uint32_t s = first_; s < surfaces.size(); ++s) {
+            PlanarRegions& planar = pieces[s - first_];
+            for (const PlanarRegion& region : planar.regions) {
                 if (stop_()) {
                     return;
                 }
-                add_sheet(s, region, std::span(pieces[s].members).subspan(region.first, region.count));
+                add_sheet(s, region, std::span(planar.members).subspan(region.first, region.count));
             }
             for (std::uint32_t t = 0; t < surfaces[s].triangles.size() && !stop_(); ++t) {
                 if (out_.on_sheet[out_.first_triangle[s] + t] == Element::kNone) {
@@ -94,7 +99,7 @@ private:
                     }
                 }
             }
-            pieces[s] = {};
+            planar = {};
         }
     }
 
@@ -352,6 +357,7 @@ private:
     Hierarchy& out_;
     const RunContext& context_;
     StopCheck stop_;
+    std::uint32_t first_; ///< surface
     std::vector<Face> loose_;
     std::array<std::vector<Small>, 2> small_; ///< [1]: of what emits
     std::array<std::vector<Item>, 2> items_;
@@ -364,6 +370,19 @@ Hierarchy build_hierarchy(const RayScene& rays, const HierarchySettings& setting
     out.settings = settings;
     Builder(rays, out, context).run();
     return out;
+}
+
+void append_to_hierarchy(Hierarchy& h, const RayScene& rays, std::uint32_t first_surface, const HierarchySettings& sizes) {
+    const HierarchySettings before = h.settings;
+    h.settings.smallest_patch = sizes.smallest_patch;
+    h.settings.group_size = sizes.group_size;
+    h.first_appended = std::min(h.first_appended, std::uint32_t(h.elements.size()));
+    const RunContext unstopped;
+    Builder(rays, h, unstopped, first_surface).run();
+    h.settings = before;
+    if (!h.room.empty()) {
+        h.room.resize(h.elements.size(), Element::kNone);
+    }
 }
 
 } // namespace atrium

@@ -123,6 +123,16 @@ LeafExchange::LeafExchange(const Hierarchy& h, const std::vector<std::uint32_t>&
     });
 }
 
+void LeafExchange::append(std::span<const std::uint32_t> leaves, const Hierarchy& h, const LeafSurroundings& around) {
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        leaves_.push_back(leaves[i]);
+        first_.push_back(first_.back());
+        area_.push_back(h.elements[leaves[i]].area * around.open[i]);
+        opacity_.push_back(around.opacity[i]);
+        row_sums_.push_back(around.share[i]);
+    }
+}
+
 void LeafExchange::apply(const std::vector<Rgb>& radiosity, std::vector<Rgb>& irradiance) const {
     irradiance.resize(leaves_.size());
     parallel_chunks(leaves_.size(), kGrain, [&](std::size_t begin, std::size_t end, std::size_t) {

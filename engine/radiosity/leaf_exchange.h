@@ -20,6 +20,10 @@ public:
     /// what every leaf sends, as much lands on opaque leaves as its own rays did, so energy is kept and never grows.
     LeafExchange(const Hierarchy& hierarchy, const std::vector<std::uint32_t>& leaves, const LeafSurroundings& around);
 
+    /// Appends leaves (elements behind all that are there, ascending) that exchange nothing with anybody here: whose light
+    /// is what others know, see SightChange::Rows. `around` = what look_around() says of them.
+    void append(std::span<const std::uint32_t> leaves, const Hierarchy& hierarchy, const LeafSurroundings& around);
+
     [[nodiscard]] const std::vector<std::uint32_t>& leaves() const { return leaves_; }
     /// Irradiance on every leaf for a radiosity on every leaf (same order as leaves()).
     void apply(const std::vector<Rgb>& radiosity, std::vector<Rgb>& irradiance) const;

@@ -29,7 +29,9 @@ LeafFlags stand_out(const Hierarchy& h, const std::vector<std::uint32_t>& room, 
         }
     }
     LeafFlags out(h.elements.size(), 0);
-    for (std::uint32_t i = 0; i < h.elements.size(); ++i) {
+    // Who gathers by name starts from the root.
+    const std::size_t below_root = std::min<std::size_t>(h.elements.size(), h.first_appended);
+    for (std::uint32_t i = 0; i < below_root; ++i) {
         const Element& e = h.elements[i];
         if (e.leaf() && value(e) > 0.0F) {
             const Sum& all = rooms[room_of(i)];

@@ -121,11 +121,13 @@ void EmbreeTriangles::build(std::span<const RaySurface> surfaces, const std::vec
         rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr); // the context is the caller's
     }
     number_in_moved_.assign(surfaces.size(), Hit::kNone);
+    still_surfaces_ = surfaces.size();
 }
 
 void EmbreeTriangles::move(std::span<const std::uint32_t> moved, std::span<const RaySurface> surfaces,
                            const std::vector<std::uint8_t>& filters, std::span<const Box3> bounds) {
     const FloatTrapsOff quiet;
+    number_in_moved_.resize(surfaces.size(), Hit::kNone);
     std::size_t at_rest = 0;
     for (const std::uint32_t surface : moved_surfaces_) {
         at_rest += surfaces[surface].triangles.size();
@@ -149,9 +151,11 @@ void EmbreeTriangles::move(std::span<const std::uint32_t> moved, std::span<const
         if (number_in_moved_[i] == Hit::kNone) {
             // Embree reads a geometry's mask when a ray meets one of its triangles: what has none is met no more, without a
             // commit of the scene, which would build it anew. The buffers and boxes stay where they are.
-            RTCGeometry left = rtcGetGeometry(still_, i);
-            rtcSetGeometryMask(left, 0);
-            rtcCommitGeometry(left);
+            if (i < still_surfaces_) {
+                RTCGeometry left = rtcGetGeometry(still_, i);
+                rtcSetGeometryMask(left, 0);
+                rtcCommitGeometry(left);
+            }
             number_in_moved_[i] = std::uint32_t(moved_surfaces_.size());
             moved_surfaces_.push_back(i);
             RTCGeometry geometry = make(surface, filters[i] != 0);
@@ -257,6 +261,10 @@ bool EmbreeTriangles::remember(std::span<const RaySurface> surfaces, const std::
     Box3 all = before_reach_.empty() ? Box3{} : before_reach_.box;
     for (std::size_t k = before_surfaces_.size(); k < moved_surfaces_.size(); ++k) {
         const std::uint32_t i = moved_surfaces_[k];
+        before_surfaces_.push_back(i);
+        if (i >= still_surfaces_) {
+            continue; // it was not there
+        }
         // Its first place is in the buffers of what stands still, where its mask hides it from rays.
         const RaySurface& surface = surfaces[i];
         const auto* was =
@@ -269,7 +277,6 @@ bool EmbreeTriangles::remember(std::span<const RaySurface> surfaces, const std::
         RTCGeometry geometry = make(placed, filters[i] != 0);
         rtcAttachGeometryByID(before_, geometry, unsigned(k));
         rtcReleaseGeometry(geometry);
-        before_surfaces_.push_back(i);
     }
     rtcCommitScene(before_);
     before_reach_ = reach_of(all);

@@ -40,8 +40,8 @@ public:
     /// No query may follow when it is stopped.
     void build(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters,
                const RunContext& context = {});
-    /// Some surfaces have other positions (the same number of them) or filter otherwise; no query may run. `bounds` are
-    /// those of all surfaces.
+    /// Some surfaces have other positions (the same number of them) or filter otherwise, or are new, behind all others; no
+    /// query may run. `bounds` are those of all surfaces.
     void move(std::span<const std::uint32_t> moved, std::span<const RaySurface> surfaces,
               const std::vector<std::uint8_t>& filters, std::span<const Box3> bounds);
     [[nodiscard]] bool anything_moved() const { return moved_ != nullptr; } ///< since build()
@@ -157,6 +157,7 @@ private:
     Reach moved_filter_reach_; // of what filters among it
     std::size_t triangles_ = 0;
     bool tells_fronts_ = false;
+    std::size_t still_surfaces_ = 0; // those that build() knew; later ones are in `moved_` alone
     std::atomic<std::size_t> bytes_{0};
 };
 

@@ -18,7 +18,9 @@ RayScene::RayScene(const Scene& scene, const RunContext& context) : impl_(std::m
 
 RayScene::~RayScene() = default;
 
-std::optional<std::vector<MovedSurface>> RayScene::move_to(const Scene& scene) { return impl_->move_to(scene); }
+std::optional<std::vector<MovedSurface>> RayScene::move_to(const Scene& scene, NewThings things) {
+    return impl_->move_to(scene, things);
+}
 Result<std::vector<MaterialId>> RayScene::recolor(const Scene& scene) { return impl_->recolor(scene); }
 void RayScene::settle() {
     if (impl_->embree.anything_moved()) {

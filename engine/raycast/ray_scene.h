@@ -74,8 +74,12 @@ struct MovedSurface {
     Box3 after;
     bool came_or_went = false; ///< hidden or removed, or shown again: one of the two is where it does not matter
     bool absent = false;       ///< see RayScene::absent(): `after` does not matter
+    bool added = false;        ///< it is new, behind all surfaces that were there; `before` is empty
     [[nodiscard]] bool shown_before() const { return came_or_went == absent; }
 };
+
+/// What RayScene::move_to() does about things that were not there.
+enum class NewThings : std::uint8_t { Refuse, Append };
 
 /// Immutable but for move_to() and recolor(); every query is safe from any thread. Coordinates are engine coordinates: see
 /// origin().
@@ -94,7 +98,10 @@ public:
     /// is left as it was, when placing nodes anew does not lead to what would be built from `scene`: nodes that were not
     /// there, another order, other shapes, materials or textures, triangles that vanish or come back, another winding, other
     /// reflecting backs. Names, lights, cameras, environment and settings are not looked at.
-    [[nodiscard]] std::optional<std::vector<MovedSurface>> move_to(const Scene& scene);
+    /// With NewThings::Append nodes that were not there, or with another shape, materials or place in the tree, are put
+    /// behind all others, and so is what was stretched, whose old surfaces go; materials and textures may be more or fewer.
+    /// Surfaces are then no longer in tree order; rays see what they would in a scene that is built anew.
+    [[nodiscard]] std::optional<std::vector<MovedSurface>> move_to(const Scene& scene, NewThings things = NewThings::Refuse);
     /// Takes over from `scene` the base colours of matt, opaque materials and what materials emit, while no query runs.
     /// Returns the materials whose colour or emission changed. An error that says why, and all is left as it was, where they
     /// differ in anything else that light depends on. Which emit at all is not looked at.

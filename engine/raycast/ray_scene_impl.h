@@ -64,7 +64,8 @@ struct RayScene::Impl {
         NodeId node;
         std::shared_ptr<const MeshData> mesh;
         dmat4 to_engine{1.0};
-        DBox3 world; // Scene::world_bounds
+        DBox3 world;       // Scene::world_bounds
+        Geometry geometry; // of its shape, which may be gone when the node comes back
         std::uint32_t first_surface = 0;
         std::uint32_t surfaces = 0;
         std::optional<Node> absent; // hidden or removed since: what it was
@@ -79,6 +80,7 @@ struct RayScene::Impl {
         std::vector<NodeId> nodes;       // placed anew themselves, whatever they are
         std::vector<std::size_t> placed; // they and what is below them, into `placed`
         std::vector<std::size_t> gone;   // hidden or removed, into `placed`
+        std::vector<NodeId> added;       // to be appended
     };
     // What a node's new placement makes of it, before anything is changed.
     struct Replaced {
@@ -101,7 +103,9 @@ struct RayScene::Impl {
     std::vector<const Material*> materials; // per surface, into `scene`
     std::vector<std::uint8_t> filters;      // per surface: some light goes straight on through it
     std::vector<Box3> surface_bounds;
-    std::vector<Placed> placed; // in tree order
+    std::vector<Placed> placed;                                 // in tree order, then what was appended; by first_surface
+    std::size_t built = 0;                                      // of `placed`, in tree order
+    std::vector<std::unique_ptr<const Material>> old_materials; // of absent surfaces, where `scene` has them no more
     std::vector<Inside> insides;
     std::vector<Counter> counters = std::vector<Counter>(16);
     EmbreeTriangles embree;
@@ -148,6 +152,7 @@ struct RayScene::Impl {
         if (twins) {
             embree.tell_fronts();
         }
+        built = placed.size();
     }
 
     // Lenses and curved mirrors need their shape closer than what is matt: light that they focus shows every facet.
@@ -162,7 +167,8 @@ struct RayScene::Impl {
 
     void add_node(NodeId id, const Node& node, const Shape& shape, const std::shared_ptr<const MeshData>& mesh, Known& known,
                   const RunContext& context) {
-        Placed place{id, mesh, scene.world_matrix(id), scene.world_bounds(id), std::uint32_t(surfaces.size()), 0, {}};
+        Placed place{
+            id, mesh, scene.world_matrix(id), scene.world_bounds(id), shape.geometry, std::uint32_t(surfaces.size()), 0, {}};
         place.to_engine[3] -= dvec4(origin, 0.0);
         const auto positions = positions_of(*mesh, place.to_engine);
         const auto [repeated, first_time] = known.repeated.try_emplace(mesh.get());
@@ -293,16 +299,25 @@ struct RayScene::Impl {
     }
 
     // Walks the tree of `now` beside what was built. Nothing when more than placements differ.
-    [[nodiscard]] std::optional<Changes> find_changes(const Scene& now) const;
-    void pass_over(std::size_t index, Changes& out) const;
+    [[nodiscard]] std::optional<Changes> find_changes(const Scene& now, NewThings things) const;
+    // Where a node stands in `placed`, as what it is now; nothing where it would have to be appended. `next`: of those in
+    // tree order the first that may be it; `moved`: itself or with an ancestor.
+    [[nodiscard]] std::optional<std::size_t> find_placed(const Scene& now, NodeId id, std::size_t next, bool moved,
+                                                         NewThings things) const;
+    [[nodiscard]] bool is_same(const Scene& now, std::size_t index, bool moved, NewThings things) const;
+    [[nodiscard]] bool materials_fit(const Scene& now, std::size_t index) const;
+    [[nodiscard]] bool only_came_or_went(const Scene& now) const;
+    void take_materials(const Scene& now);
+    void append(NodeId id, std::vector<MovedSurface>& out);
     // What is not shown any more is put where it does not matter, far below all else: so all that follows what moves follows
     // this too, and when it comes back nothing has to be built.
     [[nodiscard]] Replaced put_away(std::size_t index) const;
     // A node at its new place; nothing when its triangles are not the ones it had.
     [[nodiscard]] std::optional<Replaced> replace_node(const Scene& now, std::size_t index) const;
     // Scene::bounds() of the new placements, and with it `extent`. Nothing when it makes any back reflect or stop to do so.
-    [[nodiscard]] std::optional<double> new_extent(const std::vector<Replaced>& replaced) const;
-    std::optional<std::vector<MovedSurface>> move_to(const Scene& now);
+    [[nodiscard]] std::optional<double> new_extent(const std::vector<Replaced>& replaced,
+                                                   const std::vector<DBox3>& added) const;
+    std::optional<std::vector<MovedSurface>> move_to(const Scene& now, NewThings things);
     Result<std::vector<MaterialId>> recolor(const Scene& now);
     [[nodiscard]] bool is_absent(std::uint32_t surface) const {
         const auto after = std::upper_bound(placed.begin(), placed.end(), surface,
@@ -310,8 +325,9 @@ struct RayScene::Impl {
         return after != placed.begin() && std::prev(after)->absent.has_value();
     }
 
-    void take_over(const Scene& now, const std::vector<NodeId>& nodes);
-    std::vector<MovedSurface> take_over(std::vector<Replaced> replaced, double extent_now);
+    void take_over(const Scene& now, const Changes& changes);
+    std::vector<MovedSurface> take_over(std::vector<Replaced> replaced);
+    void finish_move(std::span<const MovedSurface> moved, double extent_now);
     static bool is_pane(const RaySurface& surface, const Material& material) {
         constexpr std::size_t kMostTriangles = 32; // more is a curved or ornate thing, not a window
         constexpr float kLeastArea = 0.1F;         // square metres

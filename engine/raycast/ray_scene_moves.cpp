@@ -10,7 +10,7 @@ constexpr double kAway = 20.0; // diagonals of the scene down to where things ar
 } // namespace
 
 // Walks the tree of `now` beside what was built. Nothing when more than placements differ.
-std::optional<RayScene::Impl::Changes> RayScene::Impl::find_changes(const Scene& now) const {
+std::optional<RayScene::Impl::Changes> RayScene::Impl::find_changes(const Scene& now, NewThings things) const {
     struct Entry {
         NodeId id;
         bool moved = false; // with an ancestor
@@ -20,6 +20,7 @@ std::optional<RayScene::Impl::Changes> RayScene::Impl::find_changes(const Scene&
         stack.push_back({*id});
     }
     Changes out;
+    std::vector<std::uint8_t> stays(placed.size(), 0);
     std::size_t next = 0;
     while (!stack.empty()) {
         Entry entry = stack.back();
@@ -37,36 +38,101 @@ std::optional<RayScene::Impl::Changes> RayScene::Impl::find_changes(const Scene&
         for (auto id = node->children.rbegin(); id != node->children.rend(); ++id) {
             stack.push_back({*id, entry.moved});
         }
-        const Shape* shape = now.shapes.find(node->shape);
-        if (shape == nullptr) {
+        if (now.shapes.find(node->shape) == nullptr) {
             continue;
         }
-        for (; next < placed.size() && placed[next].node != entry.id; ++next) {
-            pass_over(next, out);
+        const std::optional<std::size_t> index = find_placed(now, entry.id, next, entry.moved, things);
+        if (!index) { // new, or no longer in its order, or another thing
+            if (things == NewThings::Refuse) {
+                return std::nullopt;
+            }
+            out.added.push_back(entry.id);
+            continue;
         }
-        if (next == placed.size()) {
-            return std::nullopt; // new, or no longer in its order
+        stays[*index] = 1;
+        next = *index < built ? *index + 1 : next;
+        if (entry.moved || placed[*index].absent) {
+            out.placed.push_back(*index);
         }
-        was = placed[next].absent ? &*placed[next].absent : was;
-        if (was->shape != node->shape || was->materials != node->materials ||
-            scene.shapes.find(was->shape)->geometry != shape->geometry) {
-            return std::nullopt;
-        }
-        if (entry.moved || placed[next].absent) {
-            out.placed.push_back(next);
-        }
-        ++next;
     }
-    for (; next < placed.size(); ++next) {
-        pass_over(next, out);
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        if (stays[i] == 0 && !placed[i].absent) {
+            out.gone.push_back(i);
+        }
     }
     return out;
 }
 
-void RayScene::Impl::pass_over(std::size_t index, Changes& out) const {
-    if (!placed[index].absent) {
-        out.gone.push_back(index);
+std::optional<std::size_t> RayScene::Impl::find_placed(const Scene& now, NodeId id, std::size_t next, bool moved,
+                                                       NewThings things) const {
+    while (next < built && placed[next].node != id) {
+        ++next;
     }
+    if (next < built && is_same(now, next, moved, things)) {
+        return next;
+    }
+    for (std::size_t i = placed.size(); i-- > built;) { // the newest first
+        if (placed[i].node == id && is_same(now, i, moved, things)) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+bool RayScene::Impl::is_same(const Scene& now, std::size_t index, bool moved, NewThings things) const {
+    const Placed& place = placed[index];
+    const Node& node = *now.nodes.find(place.node);
+    const Node* was = place.absent ? &*place.absent : scene.nodes.find(place.node);
+    if (was == nullptr || was->shape != node.shape || was->materials != node.materials ||
+        !(place.geometry == now.shapes.find(node.shape)->geometry)) {
+        return false;
+    }
+    if (things == NewThings::Refuse) {
+        return true;
+    }
+    // What is stretched has other charts and elements: it is another thing.
+    constexpr double kStretch = 1e-5;
+    if (moved || place.absent) {
+        const dmat3 a(place.to_engine), b(now.world_matrix(place.node));
+        const dmat3 before = glm::transpose(a) * a, after = glm::transpose(b) * b;
+        for (int k = 0; k < 3; ++k) {
+            const double slack = kStretch * (before[0][0] + before[1][1] + before[2][2]);
+            if (!(max_component(vec3(glm::abs(after[k] - before[k]))) <= slack)) {
+                return false;
+            }
+        }
+        if ((glm::determinant(a) < 0.0) != (glm::determinant(b) < 0.0)) {
+            return false;
+        }
+    }
+    return materials_fit(now, index);
+}
+
+// Colours of what is shown were taken over by recolor(); what comes back must be what it was.
+bool RayScene::Impl::materials_fit(const Scene& now, std::size_t index) const {
+    const Placed& place = placed[index];
+    for (std::uint32_t i = place.first_surface; i < place.first_surface + place.surfaces; ++i) {
+        const Material* is = now.materials.find(surfaces[i].material);
+        is = is != nullptr ? is : &default_material();
+        if (is != materials[i] && !(*is == *materials[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Materials and textures that both scenes have are the same.
+bool RayScene::Impl::only_came_or_went(const Scene& now) const {
+    bool same = true;
+    scene.materials.for_each([&](MaterialId id, const Material& was) {
+        const Material* is = now.materials.find(id);
+        same = same && (is == nullptr || *is == was);
+    });
+    scene.textures.for_each([&](TextureId id, const Texture& was) {
+        const Texture* is = now.textures.find(id);
+        same = same && (is == nullptr || *is == was);
+    });
+    return same;
 }
 
 // What is not shown any more is put where it does not matter, far below all else: so all that follows what moves follows
@@ -133,7 +199,8 @@ std::optional<RayScene::Impl::Replaced> RayScene::Impl::replace_node(const Scene
 }
 
 // Scene::bounds() of the new placements, and with it `extent`. Nothing when it makes any back reflect or stop to do so.
-std::optional<double> RayScene::Impl::new_extent(const std::vector<Replaced>& replaced) const {
+std::optional<double> RayScene::Impl::new_extent(const std::vector<Replaced>& replaced,
+                                                 const std::vector<DBox3>& added) const {
     std::vector<const DBox3*> worlds;
     std::vector<bool> absent;
     for (const Placed& p : placed) {
@@ -150,6 +217,9 @@ std::optional<double> RayScene::Impl::new_extent(const std::vector<Replaced>& re
             all.add(*worlds[i]);
         }
     }
+    for (const DBox3& box : added) {
+        all.add(box);
+    }
     const double out = all.diagonal();
     const bool same = std::all_of(insides.begin(), insides.end(), [&](const Inside& inside) {
         return is_small(*worlds[inside.placed], out) == inside.small || !is_solid(*inside.mesh, {});
@@ -157,11 +227,12 @@ std::optional<double> RayScene::Impl::new_extent(const std::vector<Replaced>& re
     return same ? std::optional(out) : std::nullopt;
 }
 
-std::optional<std::vector<MovedSurface>> RayScene::Impl::move_to(const Scene& now) {
-    if (scene.materials != now.materials || scene.textures != now.textures) {
+std::optional<std::vector<MovedSurface>> RayScene::Impl::move_to(const Scene& now, NewThings things) {
+    const bool other_materials = scene.materials != now.materials || scene.textures != now.textures;
+    if (other_materials && (things == NewThings::Refuse || !only_came_or_went(now))) {
         return std::nullopt;
     }
-    const std::optional<Changes> changes = find_changes(now);
+    const std::optional<Changes> changes = find_changes(now, things);
     if (!changes) {
         return std::nullopt;
     }
@@ -176,12 +247,62 @@ std::optional<std::vector<MovedSurface>> RayScene::Impl::move_to(const Scene& no
     for (const std::size_t index : changes->gone) {
         replaced.push_back(put_away(index));
     }
-    const std::optional<double> extent_now = new_extent(replaced);
+    std::vector<DBox3> added;
+    for (const NodeId id : changes->added) {
+        added.push_back(now.world_bounds(id));
+    }
+    const std::optional<double> extent_now = new_extent(replaced, added);
     if (!extent_now) {
         return std::nullopt;
     }
-    take_over(now, changes->nodes);
-    return take_over(std::move(replaced), *extent_now);
+    take_over(now, *changes);
+    std::vector<MovedSurface> out = take_over(std::move(replaced));
+    if (other_materials) {
+        take_materials(now);
+    }
+    extent = *extent_now;
+    for (const NodeId id : changes->added) {
+        append(id, out);
+    }
+    finish_move(out, *extent_now);
+    return out;
+}
+
+// Materials of what is shown are those of `now`; absent things keep theirs.
+void RayScene::Impl::take_materials(const Scene& now) {
+    const auto kept = [&](std::size_t i) {
+        return std::any_of(old_materials.begin(), old_materials.end(),
+                           [&](const auto& old) { return old.get() == materials[i]; });
+    };
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        const bool lost = surfaces[i].material && now.materials.find(surfaces[i].material) == nullptr;
+        if (lost && materials[i] != &default_material() && !kept(i)) {
+            old_materials.push_back(std::make_unique<const Material>(*materials[i]));
+            materials[i] = old_materials.back().get();
+        }
+    }
+    scene.materials = now.materials;
+    scene.textures = now.textures;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        const Material* is = scene.materials.find(surfaces[i].material);
+        if (is != nullptr && (!kept(i) || *is == *materials[i])) {
+            materials[i] = is;
+        }
+    }
+}
+
+void RayScene::Impl::append(NodeId id, std::vector<MovedSurface>& out) {
+    const Node& node = *scene.nodes.find(id);
+    const Shape& shape = *scene.shapes.find(node.shape);
+    Known known;
+    const auto first = std::uint32_t(surfaces.size());
+    add_node(id, node, shape, tessellate(shape.geometry, {curve_segments(node)}), known, {});
+    if (twins) {
+        embree.tell_fronts(); // of the scenes that are made from now on: those before have none
+    }
+    for (std::uint32_t i = first; i < surfaces.size(); ++i) {
+        out.push_back({i, {}, surface_bounds[i], true, false, true});
+    }
 }
 
 Result<std::vector<MaterialId>> RayScene::Impl::recolor(const Scene& now) {
@@ -221,8 +342,13 @@ Result<std::vector<MaterialId>> RayScene::Impl::recolor(const Scene& now) {
     return changed;
 }
 
-void RayScene::Impl::take_over(const Scene& now, const std::vector<NodeId>& nodes) {
-    for (const NodeId id : nodes) {
+void RayScene::Impl::take_over(const Scene& now, const Changes& changes) {
+    if (!changes.added.empty()) {
+        scene.nodes = now.nodes;
+        scene.shapes = now.shapes;
+        return;
+    }
+    for (const NodeId id : changes.nodes) {
         Node* was = scene.nodes.find(id);
         if (was == nullptr) { // a group that came new
             scene.nodes = now.nodes;
@@ -232,7 +358,7 @@ void RayScene::Impl::take_over(const Scene& now, const std::vector<NodeId>& node
     }
 }
 
-std::vector<MovedSurface> RayScene::Impl::take_over(std::vector<Replaced> replaced, double extent_now) {
+std::vector<MovedSurface> RayScene::Impl::take_over(std::vector<Replaced> replaced) {
     std::vector<MovedSurface> out;
     for (Replaced& r : replaced) {
         Placed& place = placed[r.placed];
@@ -242,18 +368,23 @@ std::vector<MovedSurface> RayScene::Impl::take_over(std::vector<Replaced> replac
         place.absent = std::move(r.absent);
         for (std::size_t i = 0; i < r.surfaces.size(); ++i) {
             const std::size_t surface = place.first_surface + i;
-            out.push_back(
-                {std::uint32_t(surface), surface_bounds[surface], r.bounds[i], came_or_went, place.absent.has_value()});
+            out.push_back({std::uint32_t(surface), surface_bounds[surface], r.bounds[i], came_or_went,
+                           place.absent.has_value(), false});
             surface_bounds[surface] = r.bounds[i];
             surfaces[surface] = std::move(r.surfaces[i]);
         }
     }
+    return out;
+}
+
+// All that follows from new placements.
+void RayScene::Impl::finish_move(std::span<const MovedSurface> moved, double extent_now) {
     extent = extent_now;
     for (Inside& inside : insides) {
         inside.small = is_small(placed[inside.placed].world, extent);
     }
-    if (out.empty()) {
-        return out;
+    if (moved.empty()) {
+        return;
     }
     bounds = {};
     for (const Placed& place : placed) {
@@ -261,14 +392,13 @@ std::vector<MovedSurface> RayScene::Impl::take_over(std::vector<Replaced> replac
             bounds.add(surface_bounds[i]);
         }
     }
-    std::vector<std::uint32_t> moved;
-    for (const MovedSurface& m : out) {
-        moved.push_back(m.surface);
+    std::vector<std::uint32_t> numbers;
+    for (const MovedSurface& m : moved) {
+        numbers.push_back(m.surface);
         filters[m.surface] = filters_light(*materials[m.surface], surfaces[m.surface]) ? 1 : 0;
     }
     any_filter = std::find(filters.begin(), filters.end(), 1) != filters.end();
-    embree.move(moved, surfaces, filters, surface_bounds);
-    return out;
+    embree.move(numbers, surfaces, filters, surface_bounds);
 }
 
 } // namespace atrium

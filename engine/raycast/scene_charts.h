@@ -15,6 +15,10 @@ namespace atrium {
 std::vector<SurfaceCharts> chart_surfaces(const RayScene& rays, const ChartSettings& settings,
                                           const RunContext& context = {});
 
+/// Those of one surface.
+SurfaceCharts chart_surface(const RayScene& rays, std::uint32_t surface, const ChartSettings& settings,
+                            const RunContext& context = {});
+
 /// Chart-space coordinates of a point of a charted triangle, `barycentric` as in Hit (tiles).
 inline vec2 chart_uv(const SurfaceCharts& charts, std::uint32_t triangle, const vec2& barycentric) {
     const std::array<vec2, 3>& uv = charts.uv[triangle];

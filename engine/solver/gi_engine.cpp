@@ -403,6 +403,9 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
 
 SensorReading GiEngine::gather_free(const dvec3& point, const dvec3& normal) const {
     SensorReading out;
+    if (impl_->live && !impl_->reflected) { // something was added
+        impl_->reflected = impl_->gather_reflected();
+    }
     if (!impl_->solved || !impl_->reflected) {
         return out;
     }

@@ -13,6 +13,8 @@
 namespace atrium {
 
 class SightChange;
+struct LayerSet;
+struct LayerSettings;
 struct LightChange;
 struct Hit;
 struct VertexChange;
@@ -60,13 +62,14 @@ public:
     solve(const Scene& scene, const SolveOptions& options, const RunContext& context,
           const std::function<void(std::shared_ptr<const Solution>)>& on_snapshot = {});
 
-    /// Light after objects moved, were hidden or removed (and came back), lamps moved, turned or took another shape, they or
-    /// the sky changed their brightness, or matt surfaces their colour, in a hurry or (SolveOptions::settle) nearly as exact
-    /// as a new solution, starting from the last complete solution (of a solve with keep_for_updates) and the updates since:
-    /// direct light, caustics and sight between surfaces are looked at again where a move reaches, and weighted anew without
-    /// rays where brightness changed. Never `final`. Marked in Solution::statistics.update. An error where more than that
-    /// changed, shining surfaces or windows moved, or there is no complete solution: then only solve() helps. Stopped by the
-    /// context: an error too; what was left undone is remembered and done by the next update.
+    /// Light after objects were moved, scaled, added, hidden or removed (and came back), lamps moved, turned or took another
+    /// shape, they or the sky changed their brightness, or matt surfaces their colour, in a hurry or (SolveOptions::settle)
+    /// nearly as exact as a new solution, starting from the last complete solution (of a solve with keep_for_updates) and
+    /// the updates since: direct light, caustics and sight between surfaces are looked at again where a move reaches, and
+    /// weighted anew without rays where brightness changed. Never `final`. Marked in Solution::statistics.update. An error
+    /// where more than that changed, shining surfaces, windows or mirrors came or went, or there is no complete solution:
+    /// then only solve() helps. Stopped by the context: an error too; what was left undone is remembered and done by the
+    /// next update.
     Result<std::shared_ptr<const Solution>> update(const Scene& scene, const SolveOptions& options,
                                                    const RunContext& context);
     /// A complete solution is there for update() to start from.
@@ -89,6 +92,14 @@ private:
                                                                      const RunContext& context);
     static Result<std::vector<std::uint32_t>> trace_again(Impl& impl, const Scene& scene, bool moves,
                                                           UpdateStatistics& report, const RunContext& context);
+    static void take_in(Impl& impl, std::uint32_t first_surface);
+    static LayerSet lay_out(const Impl& impl, std::uint32_t first, std::uint32_t last, LayerSettings settings,
+                            const RunContext& context);
+    static bool lay_out_anew(Impl& impl, const std::vector<std::uint8_t>& wanted, const LayerSettings& settings,
+                             const RunContext& context);
+    static bool map_added(Impl& impl, const std::vector<std::uint8_t>& wanted, const RunContext& context);
+    static void forget_added_maps(Impl& impl);
+    static bool finish_layers(Impl& impl, const RunContext& context);
     static std::vector<std::shared_ptr<const SurfaceLayer>> shown_surfaces(const Impl& impl);
     static void show_direct_light(Impl& impl, const LightChange& change, const RunContext& context);
     static void light_leaves_again(Impl& impl, const LightChange& change, const RunContext& context);

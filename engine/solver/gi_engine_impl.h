@@ -1,4 +1,4 @@
-// What GiEngine keeps of a scene; for gi_engine.cpp and gi_engine_update.cpp only.
+// What GiEngine keeps of a scene; for gi_engine*.cpp and what stands beside them only.
 #pragma once
 
 #include "engine/base/parallel.h"
@@ -49,20 +49,28 @@ struct GiEngine::Impl {
     double shut_flux = 0.0;  ///< of emitters' sides that lie on something: absorbed where they are
     bool solved = false;
 
+    /// Light maps of surfaces that were added since all was complete.
+    struct AddedMaps {
+        std::vector<SurfaceCharts> charts; ///< per surface; copies of theirs in Impl::charts, the others empty
+        std::unique_ptr<LiveDirectMaps> maps;
+    };
     /// What updates need beyond that; null unless asked for (SolveOptions::keep_for_updates) and complete.
     struct Live {
         std::unique_ptr<LiveDirectMaps> maps; ///< null where no light comes straight from a source
+        std::vector<AddedMaps> added_maps;    ///< beside these
         LayerSet layers;                      ///< as shown, without `complete`
         std::vector<dmat4> placement;         ///< per surface
         std::shared_ptr<const Solution> shown;
         Scene scene;                                     ///< what of it light depends on
         SolveOptions options;                            ///< of the solve
         bool untouched = true;                           ///< no update since
-        std::shared_ptr<const LeafExchange> exchange;    ///< which leaves light which
+        std::shared_ptr<LeafExchange> exchange;          ///< which leaves light which; Insides may share it
         std::unique_ptr<ReflectedChange> reflected;      ///< null until something moves
         std::map<std::uint32_t, Displacement> displaced; ///< by surface: what moved since the complete solution
         LightChange owed;                                ///< what a stopped update left undone
         std::vector<std::uint8_t> new_maps;              ///< per surface: its layer does not show its light maps yet
+        std::vector<std::uint8_t> rough;    ///< per surface: appended in a hurry, to be looked at again; or empty
+        std::vector<std::uint8_t> lit_anew; ///< per surface: all direct light on its vertices is of this update; or empty
         QualitySettings quality;
         float light_floor = 0.0F;               ///< lux: what counts as dark
         std::vector<Box3> settled_boxes;        ///< where what had moved stood when all was exact last
@@ -77,6 +85,15 @@ struct GiEngine::Impl {
         std::weak_ptr<const Insides> insides;   ///< as told last; `shown` has none
     };
     std::unique_ptr<Live> live;
+    // Surfaces go without these maps again.
+    void leave(const AddedMaps& added) {
+        for (std::uint32_t i = 0; i < added.charts.size(); ++i) {
+            if (!added.charts[i].empty()) {
+                charts[i] = {};
+                maps.front[i] = maps.back[i] = nullptr;
+            }
+        }
+    }
     CausticSettings caustic_settings;
     std::vector<CausticWish> wishes; ///< see caustic_wishes()
     Rgb sky_radiance{0.0F};          ///< cd/m2
@@ -124,6 +141,12 @@ struct GiEngine::Impl {
     }
     // Lamps that have not moved: those that did have a part of their own (LampMoves).
     [[nodiscard]] const DirectLight& still_lamps() const { return live && live->lamps ? *live->lamps->staying : *punctual; }
+    // Lamps that particles are of: those that came later send theirs when all is solved anew.
+    [[nodiscard]] std::unique_ptr<DirectLight> lamps_of_particles() const {
+        std::vector<PlacedLight> known = punctual->lights();
+        known.resize(live && live->lamps ? std::min(known.size(), live->lamps->first_new) : known.size());
+        return std::make_unique<DirectLight>(std::move(known), *rays);
+    }
     // From where direct light comes, for updates.
     void find_shafts() {
         lamp_shafts = emitter_shafts = mirror_shafts = sky_shafts = {};
@@ -153,6 +176,13 @@ struct GiEngine::Impl {
     // Direct light by mirror images in flat mirrors.
     [[nodiscard]] DirectSample over_mirrors(const vec3& point, const vec3& normal, const GatherSettings& settings) const {
         return mirrors->irradiance(point, normal, settings, punctual.get(), lamps.get());
+    }
+
+    // Reflected light at points, of the leaves as they are now; with `live`.
+    [[nodiscard]] std::unique_ptr<IndirectGather> gather_reflected() const {
+        return std::make_unique<IndirectGather>(
+            hierarchy, *rays, bright_leaves(hierarchy, hierarchy.room, live->quality.bright_contrast),
+            [this](const Hit& hit, Rgb& light) { return mapped_light(hit, light); }, sky_radiance, mirrors.get());
     }
 
     // Direct light at a point of a charted surface, from its map.
@@ -468,6 +498,25 @@ struct GiEngine::Impl {
         statistics.energy.defect =
             statistics.energy.emitted > 0.0 ? 1.0 - (absorbed + statistics.energy.escaped) / statistics.energy.emitted : 0.0;
     }
+};
+
+/// Fewer rays as long as it lives: what moves is looked at for the blink of an eye.
+class InAHurry {
+public:
+    explicit InAHurry(GatherSettings& settings) : settings_(settings), before_(settings) {
+        settings.rays = std::max(settings.rays / 4, 8U);
+        settings.sun_rays = std::max(settings.sun_rays / 2, 8U);
+        settings.sky_rays = std::max(settings.sky_rays / 3, 16U);
+        settings.tolerance *= 4.0F;
+        settings.max_cut /= 2;
+    }
+    ~InAHurry() { settings_ = before_; }
+    InAHurry(const InAHurry&) = delete;
+    InAHurry& operator=(const InAHurry&) = delete;
+
+private:
+    GatherSettings& settings_;
+    GatherSettings before_;
 };
 
 /// Where the particles landed, for Solution::landings.

@@ -27,7 +27,8 @@ Result<std::vector<std::uint32_t>> GiEngine::trace_again(Impl& s, const Scene& s
             }
         }
         s.targets->follow(*s.rays, moved_surfaces);
-        const ParticleScene particle_scene{*s.rays, *s.targets, *s.punctual, s.emitters,
+        const std::unique_ptr<DirectLight> lamps = s.lamps_of_particles();
+        const ParticleScene particle_scene{*s.rays, *s.targets, *lamps, s.emitters,
                                            [&s](const Hit& hit) { return s.mirrors && s.mirrors->carries(hit); }};
         const ParticleUpdate particles = s.particles->update(particle_scene, live.owed.boxes, moved_surfaces, context);
         if (!particles.fits) {

@@ -161,9 +161,7 @@ std::vector<std::vector<VertexChange>> GiEngine::look_from_vertices(Impl& s, con
     std::unique_ptr<IndirectGather> reflected;
     std::unique_ptr<IrradianceCache> cache;
     if (!own.empty()) {
-        reflected = std::make_unique<IndirectGather>(
-            s.hierarchy, *s.rays, bright_leaves(s.hierarchy, s.hierarchy.room, live.quality.bright_contrast),
-            [&s](const Hit& hit, Rgb& light) { return s.mapped_light(hit, light); }, s.sky_radiance, s.mirrors.get());
+        reflected = s.gather_reflected();
         cache = std::make_unique<IrradianceCache>(
             *s.rays, [&](const vec3& p, const vec3& n) { return reflected->irradiance(p, n, gather); }, records);
         if (!cache->cover(own, context)) {

@@ -93,25 +93,6 @@ void follow(std::vector<SurfacePoint>& places, const dmat4& motion) {
     }
 }
 
-// Fewer rays as long as it lives: what moves is looked at for the blink of an eye.
-class InAHurry {
-public:
-    explicit InAHurry(GatherSettings& settings) : settings_(settings), before_(settings) {
-        settings.rays = std::max(settings.rays / 4, 8U);
-        settings.sun_rays = std::max(settings.sun_rays / 2, 8U);
-        settings.sky_rays = std::max(settings.sky_rays / 3, 16U);
-        settings.tolerance *= 4.0F;
-        settings.max_cut /= 2;
-    }
-    ~InAHurry() { settings_ = before_; }
-    InAHurry(const InAHurry&) = delete;
-    InAHurry& operator=(const InAHurry&) = delete;
-
-private:
-    GatherSettings& settings_;
-    GatherSettings before_;
-};
-
 } // namespace
 
 // What lies on what now: vertices by the boxes of the change, and on what moved.
@@ -153,6 +134,9 @@ void GiEngine::show_direct_light(Impl& s, const LightChange& change, const RunCo
     parallel_chunks(found.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
             const VertexPlaces& places = live.layers.places[i];
+            if (places.surface < live.lit_anew.size() && live.lit_anew[places.surface] != 0) {
+                continue;
+            }
             const bool moved = change.moved[places.surface] != 0;
             Box3 bounds;
             for (std::size_t k = 0; k < places.front.size(); ++k) {
@@ -275,6 +259,10 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     live.untouched = false;
     const std::uint64_t rays_before = s.rays->rays_traced();
     context.progress("ray_scene", 0.0);
+    live.lit_anew.clear();
+    if (!live.added_maps.empty() && Relight::changed(s, scene)) {
+        forget_added_maps(s);
+    }
     const auto lamps_moved = LampMoves::follow(s, scene, context);
     if (!lamps_moved) {
         return tl::unexpected(lamps_moved.error());
@@ -289,7 +277,8 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         return context.should_stop() ? fail("", "", relit.error().what, "The next update goes on")
                                      : give_up(relit.error().what);
     }
-    const auto moved = s.rays->move_to(scene);
+    const auto first_new = std::uint32_t(s.rays->surfaces().size());
+    const auto moved = s.rays->move_to(scene, NewThings::Append);
     if (!moved) {
         return give_up("more than places and colours changed");
     }
@@ -317,10 +306,20 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         if (m.came_or_went && is_specular(material)) {
             return give_up("a mirror, metal or glass came or went");
         }
+        if (m.added) {
+            change.moved[m.surface] = 1;
+            live.displaced[m.surface] = {m.before, m.after};
+            continue;
+        }
         const dmat4 motion = surface.to_engine * glm::inverse(live.placement[m.surface]);
         live.placement[m.surface] = surface.to_engine;
         if (!follow(s.charts[m.surface], motion)) {
             return give_up("something was stretched");
+        }
+        for (Impl::AddedMaps& added : live.added_maps) {
+            if (m.surface < added.charts.size()) {
+                (void)follow(added.charts[m.surface], motion);
+            }
         }
         for (VertexPlaces& places : live.layers.places) {
             if (places.surface == m.surface) {
@@ -342,6 +341,13 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         s.mirrors = std::make_unique<MirrorLight>(*s.rays);
         s.find_shafts();
     }
+    std::optional<InAHurry> fewer_rays;
+    if (!options.settle) {
+        fewer_rays.emplace(s.field.direct);
+    }
+    if (first_new < s.rays->surfaces().size()) {
+        take_in(s, first_new);
+    }
     auto solution = std::make_shared<Solution>(*live.shown);
     UpdateStatistics& report = solution->statistics.update;
     report = {};
@@ -354,13 +360,19 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     PhaseTimer timer(solution->statistics);
     solution->statistics.phases.clear();
     timer.next("direct");
-    std::optional<InAHurry> fewer_rays;
+    const std::size_t old_maps = live.added_maps.size();
+    live.new_maps.resize(s.rays->surfaces().size(), 0);
+    if (options.settle && !finish_layers(s, context)) {
+        return fail("", "", "stopped before the light had followed", "The next update goes on");
+    }
     LightChange look_at = change;
     look_at.exact = options.settle;
     look_at.anew = follow_lamps ? live.lamps->part : LightChange::kNone;
     if (options.settle) {
         for (const auto& [surface, d] : live.displaced) {
-            look_at.boxes.push_back(d.before);
+            if (!d.before.empty()) { // it was there
+                look_at.boxes.push_back(d.before);
+            }
             if (!d.now.empty()) {
                 look_at.boxes.push_back(d.now);
                 look_at.moved[surface] = 1;
@@ -368,14 +380,16 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         }
         look_at.boxes.insert(look_at.boxes.end(), live.settled_boxes.begin(), live.settled_boxes.end());
         join_boxes(look_at.boxes);
-    } else {
-        fewer_rays.emplace(s.field.direct);
     }
-    live.new_maps.resize(s.rays->surfaces().size(), 0);
     RepairReport repaired;
     repaired.complete = true;
     if (live.maps && looks) {
         repaired = live.maps->repair(look_at, s.maps, context);
+    }
+    for (std::size_t i = 0; i < old_maps && looks && repaired.complete; ++i) {
+        const RepairReport also = live.added_maps[i].maps->repair(look_at, s.maps, context);
+        repaired.surfaces.insert(repaired.surfaces.end(), also.surfaces.begin(), also.surfaces.end());
+        repaired.complete = also.complete;
     }
     for (const std::uint32_t surface : repaired.surfaces) {
         live.new_maps[surface] = 1;
@@ -435,6 +449,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics);
     }
     change = {};
+    live.lit_anew.clear();
     live.relight_owed = false;
     if (follow_lamps) {
         live.lamps->owed = false;

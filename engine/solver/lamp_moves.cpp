@@ -158,6 +158,16 @@ Result<std::size_t> GiEngine::LampMoves::follow(Impl& s, const Scene& scene, con
             lamp.light.color = at != now.end() ? at->light.color : lamp.light.color;
         }
     }
+    // What came on, or is new, moves there from nowhere.
+    const std::size_t old = placed.size();
+    for (const PlacedLight& lamp : now) {
+        const bool known = std::any_of(placed.begin(), placed.begin() + std::ptrdiff_t(old),
+                                       [&](const PlacedLight& l) { return l.node == lamp.node; });
+        if (live.maps && !known) {
+            moved.push_back(std::uint32_t(placed.size()));
+            placed.push_back(lamp);
+        }
+    }
     if (moved.empty() && !owed) {
         return moved.size();
     }
@@ -170,17 +180,21 @@ Result<std::size_t> GiEngine::LampMoves::follow(Impl& s, const Scene& scene, con
     std::vector<std::uint32_t> all = live.lamps ? live.lamps->lights : std::vector<std::uint32_t>{};
     std::vector<std::uint32_t> leaving;
     for (const std::uint32_t i : moved) {
-        if (!live.lamps || !live.lamps->has(i)) {
+        if (i < old && (!live.lamps || !live.lamps->has(i))) {
             leaving.push_back(i);
         }
     }
     all.insert(all.end(), leaving.begin(), leaving.end());
     std::sort(all.begin(), all.end());
+    const std::vector<std::uint32_t> sent = all; // something so far
+    for (std::size_t i = old; i < placed.size(); ++i) {
+        all.push_back(std::uint32_t(i));
+    }
     const bool anew = !live.lamps || !live.lamps->known_;
     std::vector<Shares> shares;
     std::vector<Rgb> of_leaves;
     if (anew || !leaving.empty()) {
-        const DirectLight lamps(some_of(s.punctual->lights(), anew ? all : leaving), *s.rays);
+        const DirectLight lamps(some_of(s.punctual->lights(), anew ? sent : leaving), *s.rays);
         shares = on_vertices(s, lamps, context);
         of_leaves = on_leaves(s, lamps, context);
     }
@@ -216,6 +230,7 @@ Result<std::size_t> GiEngine::LampMoves::follow(Impl& s, const Scene& scene, con
     }
     self.lights = all;
     self.owed = true;
+    self.first_new = old < placed.size() ? std::min(self.first_new, old) : self.first_new;
     s.punctual->place(std::move(placed));
     std::vector<std::uint32_t> others;
     for (std::uint32_t i = 0; i < s.punctual->lights().size(); ++i) {

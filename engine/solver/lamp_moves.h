@@ -23,13 +23,14 @@ struct GiEngine::LampMoves {
     std::size_t part;                             ///< of LiveDirectMaps: direct light of these, over mirrors too
     bool owed = false;                            ///< they moved, and no update since then was finished
     bool exact = false;                           ///< their part is as exact as that of a new solution
+    std::size_t first_new = SIZE_MAX;             ///< of DirectLight::lights(): from here on they were not there, or off
 
     LampMoves();
     ~LampMoves();
 
     /// Finds lamps that are elsewhere or of another shape in `scene`, takes what they sent out of the light that stays, and
-    /// places them. Before anything else follows the scene. Returns how many moved. An error when asked to stop: nothing has
-    /// changed then.
+    /// places them; those that are new are among them, and sent nothing. Before anything else follows the scene. Returns how
+    /// many moved. An error when asked to stop: nothing has changed then.
     static Result<std::size_t> follow(Impl& s, const Scene& scene, const RunContext& context);
     /// Lamps moved, or the light of those that did is to be made exact.
     static bool needed(const Impl& s, bool settle);

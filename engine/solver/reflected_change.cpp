@@ -23,49 +23,63 @@ Rgb followed(const Rgb& vertex, const Rgb& before, const Rgb& now, float dark) {
 } // namespace
 
 ReflectedChange::ReflectedChange(const Hierarchy& h, const RayScene& rays, const LayerSet& layers) {
-    constexpr float kClear = 1e-3F;        // metres: rays down to the leaf start this far above the surface
     constexpr float kTraceOfMean = 0.002F; // of the mean irradiance
-    before_.reserve(h.elements.size());
-    for (const Element& e : h.elements) {
-        before_.push_back(e.irradiance);
-    }
     trace_ = h.empty() ? 0.0F : kTraceOfMean * luminance(h.elements.front().irradiance);
+    append(h, rays, layers, 0);
+}
+
+void ReflectedChange::append(const Hierarchy& h, const RayScene& rays, const LayerSet& layers, std::size_t first_layer) {
+    before_.reserve(h.elements.size());
+    for (std::size_t i = before_.size(); i < h.elements.size(); ++i) {
+        before_.push_back(h.elements[i].irradiance);
+    }
     surfaces_.resize(layers.surfaces.size());
-    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-        const SurfaceLayer& layer = *layers.surfaces[i];
-        const std::uint32_t surface = layers.places[i].surface;
-        const dmat4& to_engine = rays.surfaces()[surface].to_engine;
-        const DisplayMesh& mesh = *layer.mesh;
-        const std::size_t triangles = mesh.indices.size() / 3;
-        const auto find = [&](Side& side, bool back) {
-            side.leaf.assign(triangles, Element::kNone);
-            parallel_chunks(triangles, 256, [&](std::size_t begin, std::size_t end, std::size_t) {
-                for (std::size_t t = begin; t < end; ++t) {
-                    vec3 p[3];
-                    for (std::size_t k = 0; k < 3; ++k) {
-                        const dvec3 local(mesh.positions[mesh.indices[3 * t + k]]);
-                        p[k] = vec3(dvec3(to_engine * dvec4(local, 1.0)));
-                    }
-                    vec3 n = glm::cross(p[1] - p[0], p[2] - p[0]);
-                    const float length = glm::length(n);
-                    if (!(length > 0.0F)) {
-                        continue;
-                    }
-                    n *= (back != rays.surfaces()[surface].mirrored ? -1.0F : 1.0F) / length;
-                    const vec3 middle = (p[0] + p[1] + p[2]) / 3.0F;
-                    const Hit hit = rays.nearest({middle + n * kClear, -n, 2.0F * kClear});
-                    if (hit && hit.surface == surface && hit.front != back) {
-                        side.leaf[t] = h.leaf_at(hit.surface, hit.triangle, back, hit.barycentric);
-                    }
+    take_layers(h, rays, layers, first_layer, surfaces_.size());
+}
+
+void ReflectedChange::take_layers(const Hierarchy& h, const RayScene& rays, const LayerSet& layers, std::size_t first,
+                                  std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+        take_layer(h, rays, layers, i);
+    }
+}
+
+void ReflectedChange::take_layer(const Hierarchy& h, const RayScene& rays, const LayerSet& layers, std::size_t i) {
+    constexpr float kClear = 1e-3F; // metres: rays down to the leaf start this far above the surface
+    const SurfaceLayer& layer = *layers.surfaces[i];
+    const std::uint32_t surface = layers.places[i].surface;
+    const dmat4& to_engine = rays.surfaces()[surface].to_engine;
+    const DisplayMesh& mesh = *layer.mesh;
+    const std::size_t triangles = mesh.indices.size() / 3;
+    const auto find = [&](Side& side, bool back) {
+        side.leaf.assign(triangles, Element::kNone);
+        parallel_chunks(triangles, 256, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t t = begin; t < end; ++t) {
+                vec3 p[3];
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const dvec3 local(mesh.positions[mesh.indices[3 * t + k]]);
+                    p[k] = vec3(dvec3(to_engine * dvec4(local, 1.0)));
                 }
-            });
-        };
-        surfaces_[i].front.base = layer.irradiance_front;
-        find(surfaces_[i].front, false);
-        if (layer.has_back()) {
-            surfaces_[i].back.base = layer.irradiance_back;
-            find(surfaces_[i].back, true);
-        }
+                vec3 n = glm::cross(p[1] - p[0], p[2] - p[0]);
+                const float length = glm::length(n);
+                if (!(length > 0.0F)) {
+                    continue;
+                }
+                n *= (back != rays.surfaces()[surface].mirrored ? -1.0F : 1.0F) / length;
+                const vec3 middle = (p[0] + p[1] + p[2]) / 3.0F;
+                const Hit hit = rays.nearest({middle + n * kClear, -n, 2.0F * kClear});
+                if (hit && hit.surface == surface && hit.front != back) {
+                    side.leaf[t] = h.leaf_at(hit.surface, hit.triangle, back, hit.barycentric);
+                }
+            }
+        });
+    };
+    surfaces_[i].front.base = layer.irradiance_front;
+    find(surfaces_[i].front, false);
+    surfaces_[i].back = {};
+    if (layer.has_back()) {
+        surfaces_[i].back.base = layer.irradiance_back;
+        find(surfaces_[i].back, true);
     }
 }
 

@@ -38,6 +38,12 @@ public:
     std::size_t add_to(const Hierarchy& hierarchy, const std::vector<Rgb>& beside,
                        const std::vector<std::vector<VertexChange>>& known,
                        std::vector<std::shared_ptr<const SurfaceLayer>>& layers) const;
+    /// Elements and layers that are new stand at the end of `hierarchy` and `layers`, those from `first_layer` on, and no
+    /// reflected light is known of them.
+    void append(const Hierarchy& hierarchy, const RayScene& rays, const LayerSet& layers, std::size_t first_layer);
+    /// Layers of such things, from `first` up to `last`, have another mesh now.
+    void take_layers(const Hierarchy& hierarchy, const RayScene& rays, const LayerSet& layers, std::size_t first,
+                     std::size_t last);
     [[nodiscard]] std::size_t memory_bytes() const;
 
 private:
@@ -54,6 +60,7 @@ private:
         Rgb sight{0.0F};   ///< what of `now` comes from changed sight
         float area = 0.0F; ///< of the triangles around; 0 = nothing is known, or nothing changed
     };
+    void take_layer(const Hierarchy& hierarchy, const RayScene& rays, const LayerSet& layers, std::size_t index);
     [[nodiscard]] std::vector<OfVertex> of_vertices(const Hierarchy& hierarchy, const std::vector<Rgb>& beside,
                                                     const DisplayMesh& mesh, std::size_t layer, bool back) const;
     void changed(const Hierarchy& hierarchy, const std::vector<Rgb>& beside, const DisplayMesh& mesh, std::size_t layer,

@@ -248,7 +248,7 @@ Result<GiEngine::Relight::Change> GiEngine::Relight::follow(Impl& s, const Scene
                 }
             }
         }
-        for (const std::uint32_t surface : s.particles->relight(*s.punctual, emitted)) {
+        for (const std::uint32_t surface : s.particles->relight(*s.lamps_of_particles(), emitted)) {
             live.new_caustics.resize(emitted.size(), 0);
             live.new_caustics[surface] = 1;
         }

@@ -79,6 +79,8 @@ struct GiEngine::Relight {
     /// Brings lamps, colours and all light that comes straight from sources up to date with `scene`; where everything was
     /// placed stays. An error where the change is none that can be followed, or the context asked to stop.
     static Result<Change> follow(Impl& s, const Scene& scene, const RunContext& context);
+    /// Anything shines or is painted otherwise than the light that is kept knows: a quick look.
+    [[nodiscard]] static bool changed(const Impl& s, const Scene& scene);
     /// Light that leaves reflect, and vertices where all light changed alike. After follow(), where nothing moved.
     void reflect(Impl& s, const RunContext& context) const;
     /// The light that is shown becomes the base: something is about to move, and repairs go on from there.
@@ -88,7 +90,6 @@ struct GiEngine::Relight {
 
 private:
     class Sum;
-    [[nodiscard]] static bool changed(const Impl& s, const Scene& scene);
     [[nodiscard]] std::string find_change(const Impl& s, const Scene& scene, std::vector<PlacedLight>& lights);
     bool learn(Impl& s, Source& source, const RunContext& context) const;
     void learn_vertices(Impl& s, Source& source, const DirectFunction& light, bool alone) const;

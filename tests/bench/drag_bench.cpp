@@ -15,6 +15,7 @@ struct Arguments {
     std::vector<double> by{0.03, 0.0, 0.02};
     std::vector<double> lamp;
     bool night = false;
+    bool add = false;
     int steps = 12;
     std::size_t points = 4096;
 };
@@ -56,6 +57,7 @@ int run(const Arguments& a) {
     if (!moving || a.by.size() != 3 || a.steps < 1) {
         return fail_with(fmt::format("{}: no node \"{}\", or no step", a.file, a.node));
     }
+    scene.nodes.find(moving)->visible = !a.add;
     std::vector<dvec3> positions;
     for (int i = 1; i <= a.steps; ++i) {
         positions.push_back(scene.nodes.find(moving)->transform.translation + double(i) * dvec3(a.by[0], a.by[1], a.by[2]));
@@ -99,6 +101,7 @@ int main(int argc, char** argv) {
     app.add_option("--by", a.by, "metres per step, in the parent's space")->expected(3);
     app.add_option("--lamp", a.lamp, "first adds a point light of 800 lm there, of the name of the node that moves")
         ->expected(3);
+    app.add_flag("--add", a.add, "the node is not there when all is solved, but comes with the first step");
     app.add_flag("--night", a.night, "without sun and sky");
     app.add_option("--steps", a.steps);
     app.add_option("--points", a.points, "where the light is compared");

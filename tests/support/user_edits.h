@@ -251,7 +251,8 @@ private:
 
 /// What GiEngine::update() follows, most of the time.
 inline std::vector<EditKind> followed_edit_kinds() {
-    return {EditKind::Move, EditKind::Move, EditKind::Turn, EditKind::Hide, EditKind::Dim, EditKind::Paint, EditKind::Glow};
+    return {EditKind::Move,  EditKind::Move, EditKind::Turn, EditKind::Hide,  EditKind::Dim,
+            EditKind::Paint, EditKind::Glow, EditKind::Add,  EditKind::Scale, EditKind::Delete};
 }
 
 /// Every kind.

@@ -100,6 +100,63 @@ TEST(LampMoves, APointLightTakesItsLightAlong) {
     EXPECT_LT(f.settled, 0.1 * f.stayed);
 }
 
+// A lamp that was not there, or was off when all was solved, shines at once; then it goes on as the others do.
+TEST(LampMoves, ANewLampShines) {
+    Room room;
+    int step = 0;
+    const Followed f = follow("new lamp", room, [&](Room& r) {
+        if (step++ == 0) {
+            r.light_of(r.other).intensity *= 1.5F; // both at once
+            add_point_light(r.scene, {1.2, 1.8, 2.6}, 1200.0);
+        } else {
+            r.move(r.scene.roots.back(), {0.3, 0.1, -0.2});
+        }
+    });
+    EXPECT_LT(f.hurried, 0.2 * f.stayed);
+    EXPECT_LT(f.settled, 0.1 * f.stayed);
+}
+
+TEST(LampMoves, ALampThatIsSwitchedOnShinesAndGoesOffAgain) {
+    Room room;
+    room.light_of(room.other).enabled = false;
+    const auto before = room.solve();
+    ASSERT_TRUE(before);
+    const Scene off = room.scene;
+    room.light_of(room.other).enabled = true;
+    ASSERT_TRUE(room.update());
+    const auto on = room.update(true);
+    ASSERT_TRUE(on);
+    const double error = apart(room.scene, *on, *room.fresh()), stale = apart(room.scene, *before, *room.fresh());
+    std::printf("switched on: rms %.2f %%, had it stayed %.1f %%\n", 100.0 * error, 100.0 * stale);
+    EXPECT_LT(error, 0.1 * stale);
+    room.scene = off;
+    const auto again = room.update();
+    ASSERT_TRUE(again);
+    EXPECT_LT(apart(room.scene, *again, *before), 0.01) << "as if it had never shone";
+}
+
+// Its light in mirrors that are no planes comes with the complete solution, but nothing else is left out.
+TEST(LampMoves, ANewLampBesideMirrorsAndGlass) {
+    Room room;
+    Material metal;
+    metal.metallic = 1.0F;
+    metal.roughness = 0.0F;
+    add_shape(room.scene, "mirror ball", Sphere{0.25F}, {3.2, 0.3, 1.0}, room.scene.materials.insert(metal));
+    const auto before = room.solve();
+    ASSERT_TRUE(before);
+    add_point_light(room.scene, {1.2, 1.8, 2.6}, 1200.0);
+    ASSERT_TRUE(room.update());
+    const auto settled = room.update(true);
+    ASSERT_TRUE(settled);
+    room.light_of(room.point).intensity *= 0.5F;
+    const auto dimmed = room.update();
+    ASSERT_TRUE(dimmed);
+    const auto truth = room.fresh();
+    const double error = apart(room.scene, *dimmed, *truth), stale = apart(room.scene, *before, *truth);
+    std::printf("new lamp beside a mirror ball: rms %.2f %%, had it stayed %.1f %%\n", 100.0 * error, 100.0 * stale);
+    EXPECT_LT(error, 0.2 * stale);
+}
+
 // Nearly black walls: all light is direct, and once settled as good as new.
 TEST(LampMoves, SettledDirectLightIsThatOfANewSolution) {
     Room room(0.02F);

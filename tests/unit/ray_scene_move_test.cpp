@@ -465,6 +465,136 @@ TEST(RaySceneMove, RefusesWhatIsMoreThanAMove) {
     }
 }
 
+// Surfaces stand in another order than in a scene that is built anew, but rays meet the same things.
+void expect_same_but_order(const RayScene& moved, const RayScene& fresh, Random& random, int rays) {
+    EXPECT_EQ(moved.bounds().min, fresh.bounds().min);
+    EXPECT_EQ(moved.bounds().max, fresh.bounds().max);
+    int differ = 0;
+    for (int i = 0; i < rays; ++i) {
+        const vec3 from = random.point(3.0);
+        const vec3 to = random.point(2.0);
+        const vec3 direction = glm::normalize(to - from);
+        const Hit a = moved.nearest({from, direction});
+        const Hit b = fresh.nearest({from, direction});
+        differ += bool(a) != bool(b);
+        differ += moved.transmittance(from, to) != fresh.transmittance(from, to);
+        if (!a || !b) {
+            continue;
+        }
+        const RaySurface& of_a = moved.surfaces()[a.surface];
+        const RaySurface& of_b = fresh.surfaces()[b.surface];
+        differ += of_a.node != of_b.node || of_a.part != of_b.part || of_a.back_side != of_b.back_side ||
+                  of_a.pane != of_b.pane || a.triangle != b.triangle || a.t != b.t || a.front != b.front;
+        differ += !(moved.material(a.surface) == fresh.material(b.surface));
+        differ +=
+            moved.base_color(a.surface, a.triangle, a.barycentric) != fresh.base_color(b.surface, b.triangle, b.barycentric);
+        differ += moved.absent(a.surface);
+    }
+    EXPECT_EQ(differ, 0);
+}
+
+// Things that are new, stretched, given another shape or material, taken away and put back: added behind all others.
+TEST(RaySceneMove, TakesNewThings) {
+    for (const unsigned seed : {11U, 12U, 13U}) {
+        Random r(seed);
+        RayScene rays(r.scene);
+        std::vector<std::pair<NodeId, Node>> gone;
+        for (int step = 0; step < 24; ++step) {
+            SCOPED_TRACE(testing::Message() << "seed " << seed << ", step " << step);
+            const NodeId some = r.movable[r.random() % r.movable.size()];
+            Node* node = r.scene.nodes.find(some);
+            const Node first = *r.scene.nodes.find(r.scene.roots.front());
+            switch (step % 6) {
+            case 0: { // with a material that was not there
+                Material m;
+                m.base_color = Rgb(float(r.number(0.1, 0.9)));
+                m.double_sided = true;
+                Shape shape;
+                shape.geometry = Sphere{float(r.number(0.2, 0.5))};
+                Node added;
+                added.shape = r.scene.shapes.insert(shape);
+                added.materials = {r.scene.materials.insert(m)};
+                added.transform = r.anywhere();
+                const NodeId id = r.scene.nodes.insert(added);
+                r.scene.roots.insert(r.scene.roots.begin() + std::ptrdiff_t(r.random() % r.scene.roots.size()), id);
+                break;
+            }
+            case 1: node->transform.scale *= dvec3(r.number(0.8, 1.2), 1.0, r.number(0.8, 1.2)); break;
+            case 2: node->visible = !node->visible; break;
+            case 3: node->materials = {first.materials[0], first.materials[0]}; break;
+            case 4: r.move_one(); break;
+            default: // the last one that was added goes, with what only it had
+                for (const NodeId id : std::vector<NodeId>(r.scene.roots)) {
+                    if (const Node& n = *r.scene.nodes.find(id); n.children.empty() && id.slot > 42 && gone.size() < 3) {
+                        gone.emplace_back(id, n);
+                        r.scene.materials.erase(n.materials[0]);
+                        r.scene.shapes.erase(n.shape);
+                        r.scene.nodes.erase(id);
+                        std::erase(r.scene.roots, id);
+                        break;
+                    }
+                }
+            }
+            ASSERT_TRUE(rays.move_to(r.scene, NewThings::Append));
+            expect_same_but_order(rays, RayScene(r.scene), r, 300);
+        }
+        const std::size_t before = rays.surfaces().size();
+        const auto nothing = rays.move_to(r.scene, NewThings::Append);
+        ASSERT_TRUE(nothing);
+        EXPECT_TRUE(nothing->empty());
+        EXPECT_EQ(rays.surfaces().size(), before);
+    }
+}
+
+// What comes back is the very thing that went, and what is stretched and stretched back too: nothing piles up.
+TEST(RaySceneMove, NewThingsThatComeBackAreNotAddedAgain) {
+    Random r(14);
+    RayScene rays(r.scene);
+    const std::size_t built = rays.surfaces().size();
+    Material m;
+    Shape shape;
+    shape.geometry = Box{vec3(0.3F)};
+    Node node;
+    node.shape = r.scene.shapes.insert(shape);
+    node.materials = {r.scene.materials.insert(m)};
+    const NodeId id = r.scene.nodes.insert(node);
+    const Scene without = r.scene;
+    r.scene.roots.push_back(id);
+    const Scene with = r.scene;
+    auto moved = rays.move_to(with, NewThings::Append);
+    ASSERT_TRUE(moved);
+    ASSERT_EQ(moved->size(), 1U);
+    EXPECT_TRUE(moved->front().added);
+    EXPECT_TRUE(moved->front().before.empty());
+    EXPECT_FALSE(moved->front().shown_before());
+    EXPECT_EQ(rays.surfaces().size(), built + 1);
+    ASSERT_TRUE(rays.look_back());
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_TRUE(rays.move_to(without, NewThings::Append));
+        EXPECT_TRUE(rays.absent(std::uint32_t(built)));
+        moved = rays.move_to(with, NewThings::Append);
+        ASSERT_TRUE(moved);
+        ASSERT_EQ(moved->size(), 1U);
+        EXPECT_FALSE(moved->front().added) << "it is known";
+    }
+    EXPECT_EQ(rays.surfaces().size(), built + 1);
+    Scene larger = with;
+    larger.nodes.find(id)->transform.scale = dvec3(1.5);
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_TRUE(rays.move_to(larger, NewThings::Append));
+        EXPECT_TRUE(rays.absent(std::uint32_t(built)));
+        ASSERT_TRUE(rays.move_to(with, NewThings::Append));
+        EXPECT_FALSE(rays.absent(std::uint32_t(built)));
+    }
+    EXPECT_EQ(rays.surfaces().size(), built + 2);
+    // Looking back it was never there.
+    const RayScene first(without);
+    for (int i = 0; i < 500; ++i) {
+        const Ray ray{r.point(3.0), glm::normalize(r.point(1.0) + vec3(1e-3F))};
+        EXPECT_EQ(rays.nearest_before(ray).surface, first.nearest(ray).surface);
+    }
+}
+
 // A sheet of glass that becomes too thick for a pane stops light from then on, and the other way.
 TEST(RaySceneMove, ScaleMakesPanesAndUndoesThem) {
     Scene scene;

@@ -356,7 +356,6 @@ TEST(Relight, SaysWhatItCannotFollow) {
         EXPECT_NE(updated.error().message().find(why), std::string::npos) << updated.error().message();
         EXPECT_FALSE(room.engine.can_update());
     };
-    refuses("a lamp came on", [](Room& r) { add_point_light(r.scene, {2, 2, 2}, 100.0); });
     refuses("the sky began to shine", [](Room& r) { r.scene.environment.sky_radiance = Rgb(10.0F); });
     refuses("began to shine", [](Room& r) { r.material(r.cube).emissive_color = Rgb(10.0F); });
     refuses("more than its colour", [](Room& r) { r.material(r.cube).roughness = 0.1F; });
