@@ -30,14 +30,29 @@ constexpr Directions make_directions(unsigned s, unsigned a, std::array<std::uin
 constexpr std::array<Directions, 4> kDirections{make_directions(0, 0, {}), make_directions(1, 0, {1, 0, 0}),
                                                 make_directions(2, 1, {1, 3, 0}), make_directions(3, 1, {1, 3, 1})};
 
+// The same eight bits of the index at a time.
+using Bytes = std::array<std::array<std::uint32_t, 256>, 4>;
+constexpr Bytes by_bytes(const Directions& v) {
+    Bytes out{};
+    for (unsigned byte = 0; byte < 4; ++byte) {
+        for (unsigned value = 0; value < 256; ++value) {
+            for (unsigned i = 0; i < 8; ++i) {
+                out[byte][value] ^= ((value >> i) & 1U) * v[8 * byte + i];
+            }
+        }
+    }
+    return out;
+}
+constexpr std::array<Bytes, 4> kBytes{by_bytes(kDirections[0]), by_bytes(kDirections[1]), by_bytes(kDirections[2]),
+                                      by_bytes(kDirections[3])};
+
 } // namespace
 
 float sobol_owen(std::uint32_t index, unsigned dimension, std::uint32_t seed) {
-    ATRIUM_CHECK(dimension < kDirections.size());
-    std::uint32_t bits = 0;
-    for (unsigned i = 0; index != 0; ++i, index >>= 1) {
-        bits ^= (index & 1U) * kDirections[dimension][i];
-    }
+    ATRIUM_CHECK(dimension < kBytes.size());
+    const Bytes& table = kBytes[dimension];
+    const std::uint32_t bits =
+        table[0][index & 255U] ^ table[1][(index >> 8U) & 255U] ^ table[2][(index >> 16U) & 255U] ^ table[3][index >> 24U];
     const auto key = std::uint32_t(hash64(seed * 4ULL + dimension));
     return unit_float(reverse_bits(owen_scramble_reversed(reverse_bits(bits), key)));
 }

@@ -1,6 +1,7 @@
 // From particles that landed on a surface side to caustic textures and what stays on the mesh.
 #pragma once
 
+#include "engine/base/run_context.h"
 #include "engine/caustics/caustic_texture.h"
 #include "engine/geometry/surface_charts.h"
 
@@ -39,9 +40,9 @@ struct CausticSide {
 
 /// `positions` and `triangles` are the surface's in engine coordinates (metres), in the order of `charts`. One result for
 /// any number of threads and any order of the landings (texels are summed in whole numbers). What the textures hold plus
-/// the power of the landings on the mesh is the power of all landings, to rounding.
+/// the power of the landings on the mesh is the power of all landings, to rounding. Stopped by the context: empty.
 CausticSide build_caustics(std::span<const CausticLanding> landings, const SurfaceCharts& charts,
                            std::span<const vec3> positions, std::span<const uvec3> triangles,
-                           const CausticSettings& settings);
+                           const CausticSettings& settings, const RunContext& context = {});
 
 } // namespace atrium

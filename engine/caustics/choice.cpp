@@ -106,7 +106,7 @@ bool has_detail(const std::vector<double>& seen, const TexelGrid& fine, const Te
 
 float caustic_contrast(float p_min, float p_max) { return p_max > 0.0F ? (p_max - std::max(p_min, 0.0F)) / p_max : 0.0F; }
 
-double exact_weight(double weight) { return std::round(std::clamp(weight, 0.0, 1.0) * 0x1.0p24) * 0x1.0p-24; }
+double exact_weight(double weight) { return std::rint(std::clamp(weight, 0.0, 1.0) * 0x1.0p24) * 0x1.0p-24; }
 
 double dispersion(std::span<const double> sums, std::span<const double> expected, double sum_of_squares,
                   double sum_of_fourths) {
@@ -161,9 +161,10 @@ double dispersion(std::span<const double> sums, std::span<const double> expected
 }
 
 Choice choose_texture(std::span<const WeightedPoint> points, const ChartDomain& domain, const SurfaceCharts& charts,
-                      std::span<const vec3> positions, std::span<const uvec3> triangles, const CausticSettings& settings) {
+                      std::span<const vec3> positions, std::span<const uvec3> triangles, const CausticSettings& settings,
+                      const RunContext& context) {
     Choice out;
-    if (points.size() < settings.least_particles) {
+    if (points.size() < settings.least_particles || context.should_stop()) {
         return out;
     }
     const double n = double(points.size());
@@ -175,7 +176,7 @@ Choice choose_texture(std::span<const WeightedPoint> points, const ChartDomain& 
     const std::vector<double> seen = histogram(points, grid);
     out.dispersion = dispersion(seen, grid.area, all.squares, all.fourths);
     out.contrast = contrast_of(seen, grid);
-    if (out.dispersion < double(settings.least_dispersion)) {
+    if (out.dispersion < double(settings.least_dispersion) || context.should_stop()) {
         out.decision = CausticRecord::Decision::Uniform;
         return out;
     }
@@ -213,7 +214,7 @@ Choice choose_texture(std::span<const WeightedPoint> points, const ChartDomain& 
             break;
         }
         edge_of_bins *= 0.5;
-    } while (edge_of_bins > finest);
+    } while (edge_of_bins > finest && !context.should_stop());
     return out;
 }
 

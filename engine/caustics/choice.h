@@ -33,8 +33,9 @@ struct Choice {
 /// What to do with the landings of a chart. Uniform: the histogram at about 16 particles a texel, nine texels at least, is
 /// no more uneven than `least_dispersion` standard deviations of chance. Coarse: after the density at the mesh's resolution,
 /// interpolated, is taken away, what is left beyond three standard deviations is a matter of chance, or below 5 % of the
-/// light.
+/// light. Stopped by the context: whatever was found so far.
 Choice choose_texture(std::span<const WeightedPoint> points, const ChartDomain& domain, const SurfaceCharts& charts,
-                      std::span<const vec3> positions, std::span<const uvec3> triangles, const CausticSettings& settings);
+                      std::span<const vec3> positions, std::span<const uvec3> triangles, const CausticSettings& settings,
+                      const RunContext& context = {});
 
 } // namespace atrium

@@ -25,7 +25,9 @@ TexelCount paper_resolution(int level, const vec2& extent) {
 
 float footprint_resolution(std::vector<std::pair<float, float>> axis_and_power, double area, std::uint32_t most_texels,
                            float mesh_edge) {
-    std::sort(axis_and_power.begin(), axis_and_power.end());
+    if (!std::is_sorted(axis_and_power.begin(), axis_and_power.end())) {
+        std::sort(axis_and_power.begin(), axis_and_power.end());
+    }
     double all = 0.0;
     for (const auto& [axis, power] : axis_and_power) {
         all += power;

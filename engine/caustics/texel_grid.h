@@ -71,7 +71,7 @@ private:
 class OrderFreeSum {
 public:
     explicit OrderFreeSum(double largest) : quantum_(largest > 0.0 ? std::ldexp(largest, -34) : 1.0) {}
-    void add(double amount) { sum_ += std::int64_t(std::llround(amount / quantum_)); }
+    void add(double amount) { sum_ += std::int64_t(_mm_cvtsd_si64(_mm_set_sd(amount / quantum_))); }
     [[nodiscard]] double value() const { return double(sum_) * quantum_; }
 
 private:

@@ -13,6 +13,7 @@ namespace {
 
 // Landings that one vertex's light is the mean of, about: fewer are noisy, more are blurred.
 constexpr float kSmoothed = 1500.0F;
+constexpr std::uint32_t kLandingStride = 1024; // landings between two questions whether to go on
 
 // A vector in the plane of a charted triangle, in chart space.
 vec2 to_chart(const std::array<vec3, 3>& p, const std::array<vec2, 3>& uv, const vec3& v) {
@@ -158,13 +159,16 @@ private:
 
 // Landings close together as one: there may be many more of them than vertices.
 std::vector<Deposit> gather_deposits(const RayScene& rays, const ParticleMap& particles,
-                                     const std::vector<std::uint32_t>& landings, bool back, float cell) {
+                                     const std::vector<std::uint32_t>& landings, bool back, float cell, StopCheck& stop) {
     struct Sum {
         dvec3 position{0.0}, normal{0.0}, power{0.0};
         double weight = 0.0;
     };
     std::map<std::array<int, 4>, Sum> sums; // ordered: sums must not depend on a hash
     for (const std::uint32_t index : landings) {
+        if (stop()) {
+            return {};
+        }
         const Landing& l = particles.landings()[index];
         const auto p = rays.triangle(l.surface, l.triangle);
         const vec3 at = p[0] + (p[1] - p[0]) * l.barycentric.x + (p[2] - p[0]) * l.barycentric.y;
@@ -191,12 +195,13 @@ std::vector<Deposit> gather_deposits(const RayScene& rays, const ParticleMap& pa
 // Textures of one side and which of its landings are left to the mesh (`places`); returns its records.
 std::vector<CausticRecord> build_side(const RayScene& rays, const SurfaceCharts& chart, const ParticleMap& particles,
                                       const std::vector<std::uint32_t>& landings, const CausticSettings& settings,
-                                      CausticLight::Side& side) {
+                                      CausticLight::Side& side, const RunContext& context) {
     const RaySurface& surface = rays.surfaces()[side.surface];
     std::vector<CausticLanding> charted;
     std::vector<std::uint32_t> place; // of charted ones among all
     CausticRecord uncharted;
-    for (std::uint32_t i = 0; i < landings.size(); ++i) {
+    StopCheck stop(context, kLandingStride);
+    for (std::uint32_t i = 0; i < landings.size() && !stop(); ++i) {
         const Landing& l = particles.landings()[landings[i]];
         const Rgb power = particles.power(l);
         if (chart.empty() || chart.chart_of_triangle[l.triangle] == SurfaceCharts::kNone) {
@@ -212,8 +217,8 @@ std::vector<CausticRecord> build_side(const RayScene& rays, const SurfaceCharts&
         place.push_back(i);
     }
     std::vector<CausticRecord> records;
-    if (!charted.empty()) {
-        CausticSide built = build_caustics(charted, chart, *surface.positions, surface.triangles, settings);
+    if (!charted.empty() && !context.should_stop()) {
+        CausticSide built = build_caustics(charted, chart, *surface.positions, surface.triangles, settings, context);
         side.textures = std::move(built.textures);
         for (const std::uint32_t i : built.on_mesh) {
             side.places.push_back(place[i]);
@@ -233,6 +238,23 @@ std::vector<CausticRecord> build_side(const RayScene& rays, const SurfaceCharts&
         record.back = side.back;
     }
     return records;
+}
+
+// What was lit by particles before and is not any more: `lit` has two marks a layer, front before back.
+void put_out_others(std::vector<std::shared_ptr<const SurfaceLayer>>& layers, const std::vector<std::uint8_t>& lit) {
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        for (const bool back : {false, true}) {
+            const SurfaceLayer& old = *layers[i];
+            const bool any = !(back ? old.caustic_back : old.caustic_front).empty() ||
+                             !(back ? old.caustic_textures_back : old.caustic_textures_front).empty();
+            if (lit[2 * i + (back ? 1 : 0)] == 0 && any) {
+                auto layer = std::make_shared<SurfaceLayer>(old);
+                (back ? layer->caustic_back : layer->caustic_front).clear();
+                (back ? layer->caustic_textures_back : layer->caustic_textures_front).clear();
+                layers[i] = std::move(layer);
+            }
+        }
+    }
 }
 
 } // namespace
@@ -267,13 +289,17 @@ std::size_t CausticLight::texture_count() const {
 
 CausticLight build_caustic_light(const RayScene& rays, std::span<const SurfaceCharts> charts, const ParticleMap& particles,
                                  const CausticSettings& settings, const CausticReuse* reuse,
-                                 std::span<const CausticWish> wishes) {
+                                 std::span<const CausticWish> wishes, const RunContext& context) {
     CausticLight out;
     CausticSettings own = settings;
-    std::map<std::pair<std::uint32_t, bool>, std::vector<std::uint32_t>> by_side;
+    std::vector<std::vector<std::uint32_t>> of_side(2 * rays.surfaces().size()); // by surface, front before back
+    StopCheck stop(context, 16 * kLandingStride);
     for (std::uint32_t i = 0; i < particles.landings().size(); ++i) {
         const Landing& l = particles.landings()[i];
-        by_side[{l.surface, l.back}].push_back(i);
+        of_side[2 * std::size_t(l.surface) + (l.back ? 1 : 0)].push_back(i);
+        if (stop()) {
+            return {};
+        }
     }
     std::map<std::pair<std::uint32_t, bool>, const CausticLight::Side*> kept;
     for (std::size_t i = 0; reuse != nullptr && i < reuse->before.sides.size(); ++i) {
@@ -282,7 +308,15 @@ CausticLight build_caustic_light(const RayScene& rays, std::span<const SurfaceCh
             kept[{side.surface, side.back}] = &side;
         }
     }
-    for (const auto& [key, landings] : by_side) {
+    for (std::size_t number = 0; number < of_side.size(); ++number) {
+        const std::vector<std::uint32_t>& landings = of_side[number];
+        const std::pair key(std::uint32_t(number / 2), number % 2 != 0);
+        if (landings.empty()) {
+            continue;
+        }
+        if (context.should_stop()) {
+            return {};
+        }
         CausticLight::Side side;
         std::vector<CausticRecord> records;
         const auto old = kept.find(key);
@@ -294,24 +328,21 @@ CausticLight build_caustic_light(const RayScene& rays, std::span<const SurfaceCh
             side.surface = key.first;
             side.back = key.second;
             own.wish = wishes.empty() ? CausticWish{} : wishes[side.surface];
-            records = build_side(rays, charts[side.surface], particles, landings, own, side);
+            records = build_side(rays, charts[side.surface], particles, landings, own, side, context);
         }
         side.on_mesh.resize(side.places.size());
         std::transform(side.places.begin(), side.places.end(), side.on_mesh.begin(),
-                       [&landings = landings](std::uint32_t place) { return landings[place]; });
+                       [&](std::uint32_t place) { return landings[place]; });
         side.first_record = out.records.size();
         side.record_count = records.size();
         std::move(records.begin(), records.end(), std::back_inserter(out.records));
         out.sides.push_back(std::move(side));
     }
-    return out;
+    return context.should_stop() ? CausticLight{} : out;
 }
 
-void attach_caustics(std::vector<std::shared_ptr<const SurfaceLayer>>& layers, const RayScene& rays,
-                     const ParticleMap& particles, const CausticLight& light) {
-    if (light.empty()) {
-        return;
-    }
+bool attach_caustics(std::vector<std::shared_ptr<const SurfaceLayer>>& layers, const RayScene& rays,
+                     const ParticleMap& particles, const CausticLight& light, const RunContext& context) {
     std::map<std::pair<NodeId, std::uint32_t>, std::size_t> layer_of;
     for (std::size_t i = 0; i < layers.size(); ++i) {
         layer_of[{layers[i]->node, layers[i]->part}] = i;
@@ -324,7 +355,11 @@ void attach_caustics(std::vector<std::shared_ptr<const SurfaceLayer>>& layers, c
         if (side.on_mesh.empty() || at == layer_of.end()) {
             return;
         }
+        if (context.should_stop()) {
+            return;
+        }
         VertexField field(*layers[at->second], surface, side.back);
+        StopCheck stop(context, kLandingStride / 8);
         // A kernel with so many landings that their noise does not show, no finer than the mesh and within the surface.
         const auto n = float(side.on_mesh.size());
         const auto area = float(field.area());
@@ -332,11 +367,18 @@ void attach_caustics(std::vector<std::shared_ptr<const SurfaceLayer>>& layers, c
         const float reach =
             std::max(std::min(wanted, 0.5F * std::sqrt(area)), 1.2F * std::min(field.longest_edge(), wanted));
         field.sort_into_cells(reach);
-        for (const Deposit& d : gather_deposits(rays, particles, side.on_mesh, side.back, reach / 3.0F)) {
+        for (const Deposit& d : gather_deposits(rays, particles, side.on_mesh, side.back, reach / 3.0F, stop)) {
             field.add(d);
+            if (stop()) {
+                return;
+            }
         }
         vertices[begin] = field.light();
     });
+    if (context.should_stop()) {
+        return false;
+    }
+    std::vector<std::uint8_t> lit(2 * layers.size(), 0);
     for (std::size_t i = 0; i < light.sides.size(); ++i) {
         const CausticLight::Side& side = light.sides[i];
         const RaySurface& surface = rays.surfaces()[side.surface];
@@ -344,11 +386,14 @@ void attach_caustics(std::vector<std::shared_ptr<const SurfaceLayer>>& layers, c
         if (at == layer_of.end()) {
             continue;
         }
+        lit[2 * at->second + (side.back ? 1 : 0)] = 1;
         auto layer = std::make_shared<SurfaceLayer>(*layers[at->second]);
         (side.back ? layer->caustic_back : layer->caustic_front) = std::move(vertices[i]);
         (side.back ? layer->caustic_textures_back : layer->caustic_textures_front) = side.textures;
         layers[at->second] = std::move(layer);
     }
+    put_out_others(layers, lit);
+    return true;
 }
 
 } // namespace atrium

@@ -42,14 +42,15 @@ std::vector<CausticWish> caustic_wishes(const Scene& scene, const RayScene& rays
 
 /// Decides, sizes and fills the textures of every side. `charts` as chart_surfaces() makes them, `wishes` as
 /// caustic_wishes() does. Parallel; the same for any number of threads, and with `reuse` (may be null) as without: surfaces
-/// whose wish changed count as changed.
+/// whose wish changed count as changed. Empty when the context stopped.
 CausticLight build_caustic_light(const RayScene& rays, std::span<const SurfaceCharts> charts, const ParticleMap& particles,
                                  const CausticSettings& settings, const CausticReuse* reuse = nullptr,
-                                 std::span<const CausticWish> wishes = {});
+                                 std::span<const CausticWish> wishes = {}, const RunContext& context = {});
 
-/// Puts the light on the layers: textures are shared, landings without one are spread over the vertices around them, so that
-/// what triangles interpolate holds their power exactly. `layers` are those of the same ray scene.
-void attach_caustics(std::vector<std::shared_ptr<const SurfaceLayer>>& layers, const RayScene& rays,
-                     const ParticleMap& particles, const CausticLight& light);
+/// Puts the light on the layers in the place of what they had: textures are shared, landings without one are spread over the
+/// vertices around them, so that what triangles interpolate holds their power exactly. `layers` are those of the same ray
+/// scene. False when the context stopped: the layers are then as they were.
+bool attach_caustics(std::vector<std::shared_ptr<const SurfaceLayer>>& layers, const RayScene& rays,
+                     const ParticleMap& particles, const CausticLight& light, const RunContext& context = {});
 
 } // namespace atrium

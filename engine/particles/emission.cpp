@@ -1,6 +1,7 @@
 #include "engine/particles/emission.h"
 
 #include "engine/base/rng.h"
+#include "engine/particles/area_sources.h"
 
 #include <algorithm>
 #include <map>
@@ -57,7 +58,12 @@ ParticleAim smallest_window(const vec3& axis, const std::array<vec3, 8>& points,
         const vec2 size = high - low;
         if (size.x * size.y < least) {
             least = size.x * size.y;
-            best = {axis, t * e.x + b * e.y, b * e.x - t * e.y, low, high, true};
+            best.axis = axis;
+            best.a = t * e.x + b * e.y;
+            best.b = b * e.x - t * e.y;
+            best.low = low;
+            best.high = high;
+            best.window = true;
         }
     }
     return best;
@@ -144,12 +150,13 @@ bool emit_sun(const ParticleSource& source, const SpecularTarget& target, const 
 
 bool emit_area(const ParticleSource& source, const SpecularTarget& target, const ParticleAim& aim, const Hierarchy& emitters,
                const RayScene& rays, const vec4& u, Emission& out) {
-    const double total = source.power.back();
+    const std::vector<double>& weights = *aim.leaves;
+    const double total = weights.back();
     const double pick = double(u.z) * total;
-    const auto at = std::min(std::upper_bound(source.power.begin(), source.power.end(), pick) - source.power.begin(),
-                             std::ptrdiff_t(source.power.size()) - 1);
-    const double below = at > 0 ? source.power[std::size_t(at - 1)] : 0.0;
-    const double share = source.power[std::size_t(at)] - below;
+    const auto at = std::min(std::upper_bound(weights.begin(), weights.end(), pick) - weights.begin(),
+                             std::ptrdiff_t(weights.size()) - 1);
+    const double below = at > 0 ? weights[std::size_t(at - 1)] : 0.0;
+    const double share = weights[std::size_t(at)] - below;
     const std::uint32_t leaf = source.leaves[std::size_t(at)];
     const Element& e = emitters.elements[leaf];
     const vec2 v(float(std::clamp((pick - below) / share, 0.0, 0.99999994)), u.w);
@@ -169,50 +176,16 @@ bool emit_area(const ParticleSource& source, const SpecularTarget& target, const
     }
     const vec3 size = glm::abs(from.position);
     out.origin = from.position + from.normal * std::max(1e-5F, 5e-7F * max_component(size));
-    // Exitance over pi is radiance; the point has the density of its leaf's share of the power over the leaf's area.
+    // Exitance over pi is radiance; the point has the density of its leaf's share of the weights over the leaf's area.
     out.throughput = e.emitted * float(kInvPi * cosine * solid_angle * e.area * total / share);
     const float distance = std::max(glm::length(target.bounds.centre() - source.centre), 0.5F * target.bounds.diagonal());
-    out.d_origin = {vec3(0.0F), vec3(0.0F), source.extent[0], source.extent[1]};
+    out.d_origin = {vec3(0.0F), vec3(0.0F), aim.extent[0], aim.extent[1]};
     out.d_direction = {du, dv, vec3(0.0F), vec3(0.0F)};
     for (std::size_t k = 0; k < 2; ++k) { // from elsewhere on the source it would be aimed at the same place
-        const vec3 across = source.extent[k] - out.direction * glm::dot(out.direction, source.extent[k]);
+        const vec3 across = aim.extent[k] - out.direction * glm::dot(out.direction, aim.extent[k]);
         out.d_direction[2 + k] = -across / distance;
     }
     return true;
-}
-
-// Axes of the two largest spreads of points with weights, by power iteration on their covariance.
-std::array<vec3, 2> spread_axes(const std::vector<std::pair<vec3, double>>& points, const vec3& centre) {
-    dmat3 c(0.0);
-    double total = 0.0;
-    for (const auto& [p, w] : points) {
-        const dvec3 d(p - centre);
-        c += w * glm::outerProduct(d, d);
-        total += w;
-    }
-    std::array<vec3, 2> out{vec3(0.0F), vec3(0.0F)};
-    if (!(total > 0.0)) {
-        return out;
-    }
-    c = c / total;
-    for (vec3& axis : out) {
-        dvec3 v(0.577, 0.578, 0.5771);
-        double value = 0.0;
-        for (int i = 0; i < 64; ++i) {
-            const dvec3 next = c * v;
-            value = glm::length(next);
-            if (!(value > 1e-18)) {
-                break;
-            }
-            v = next / value;
-        }
-        if (!(value > 1e-18)) {
-            break;
-        }
-        axis = vec3(v * std::sqrt(12.0 * value));
-        c -= value * glm::outerProduct(v, v);
-    }
-    return out;
 }
 
 } // namespace
@@ -222,8 +195,8 @@ bool sends_alike(const ParticleSource& a, const ParticleSource& b) {
     const Light& m = b.light.light;
     return l.kind == m.kind && l.photometry == m.photometry && a.light.right == b.light.right &&
            l.inner_cone == m.inner_cone && l.outer_cone == m.outer_cone && a.light.position == b.light.position &&
-           a.light.axis == b.light.axis && a.leaves == b.leaves && a.power == b.power && a.centre == b.centre &&
-           a.extent == b.extent && a.sun_radius == b.sun_radius && a.has_size == b.has_size && a.reach == b.reach &&
+           a.light.axis == b.light.axis && a.leaves == b.leaves && a.power == b.power && a.shape == b.shape &&
+           a.centre == b.centre && a.sun_radius == b.sun_radius && a.has_size == b.has_size && a.reach == b.reach &&
            a.surface == b.surface && a.key == b.key;
 }
 
@@ -252,36 +225,15 @@ std::vector<ParticleSource> particle_sources(const DirectLight& direct, const Hi
         source.key = hash_combine(0x1A3BULL, out.size());
         out.push_back(std::move(source));
     }
-    std::map<std::uint32_t, ParticleSource> by_surface;
-    std::map<std::uint32_t, std::vector<std::pair<vec3, double>>> points;
+    std::map<std::uint32_t, std::vector<std::uint32_t>> by_surface;
     for (std::uint32_t i = 0; i < emitters.elements.size(); ++i) {
         const Element& e = emitters.elements[i];
-        const double power = double(e.area) * luminance(e.emitted);
-        if (!e.leaf() || !(power > 0.0)) {
-            continue;
-        }
-        const std::uint32_t surface = e.kind == Element::Kind::Patch ? e.surface : emitters.faces[e.triangle].surface;
-        ParticleSource& source = by_surface[surface];
-        source.leaves.push_back(i);
-        source.power.push_back(power + (source.power.empty() ? 0.0 : source.power.back()));
-        for (std::uint32_t k = 0; k < 16; ++k) {
-            const SurfacePoint p = sample_point(emitters, rays, i, sobol_owen2(k, 0, std::uint32_t(e.path)), false);
-            points[surface].emplace_back(p.position, power);
+        if (e.leaf() && double(e.area) * luminance(e.emitted) > 0.0) {
+            by_surface[e.kind == Element::Kind::Patch ? e.surface : emitters.faces[e.triangle].surface].push_back(i);
         }
     }
-    for (auto& [surface, source] : by_surface) {
-        dvec3 centre(0.0);
-        double total = 0.0;
-        for (const auto& [p, w] : points[surface]) {
-            centre += dvec3(p) * w;
-            total += w;
-        }
-        source.centre = vec3(centre / total);
-        source.has_size = true;
-        source.surface = surface;
-        source.extent = spread_axes(points[surface], source.centre);
-        source.key = hash_combine(0xA4EAULL, surface);
-        out.push_back(std::move(source));
+    for (auto& [surface, leaves] : by_surface) {
+        out.push_back(area_source(emitters, rays, surface, std::move(leaves)));
     }
     return out;
 }
@@ -303,13 +255,19 @@ ParticleAim make_aim(const ParticleSource& source, const SpecularTarget& target)
     const vec3 to_centre = centre - origin;
     const float distance = glm::length(to_centre);
     ParticleAim out;
+    if (!source.leaves.empty()) {
+        aim_leaves(source, target, out);
+    }
     if (!(distance > 0.525F * target.bounds.diagonal())) {
         return out;
     }
-    out = smallest_window(to_centre / distance, box, [&](const vec3& c, const vec3& t, const vec3& b) {
+    const ParticleAim window = smallest_window(to_centre / distance, box, [&](const vec3& c, const vec3& t, const vec3& b) {
         const vec3 d = c - origin;
         return vec2(glm::dot(d, t), glm::dot(d, b)) / std::max(glm::dot(d, to_centre / distance), 1e-6F);
     });
+    out.axis = window.axis;
+    out.a = window.a;
+    out.b = window.b;
     out.window = look_at_box(origin, target.bounds, out);
     return out;
 }

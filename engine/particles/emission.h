@@ -5,17 +5,27 @@
 #include "engine/radiosity/direct_light.h"
 #include "engine/radiosity/hierarchy.h"
 
+#include <array>
+#include <memory>
 #include <vector>
 
 namespace atrium {
+
+/// Where the light of one shining leaf comes from, by a few points of it.
+struct LeafShape {
+    vec3 at{0.0F};     ///< their mean
+    vec3 normal{0.0F}; ///< mean of unit normals: shorter where they differ
+    mat3 spread{0.0F}; ///< covariance, square metres
+    friend bool operator==(const LeafShape&, const LeafShape&) = default;
+};
 
 /// A source of particles: a lamp, the sun, or the shining leaves of one surface.
 struct ParticleSource {
     PlacedLight light;                 ///< where `leaves` is empty
     std::vector<std::uint32_t> leaves; ///< of the tree given to emit(): what shines of an area source
     std::vector<double> power;         ///< of the leaves up to and including each, lumen
+    std::vector<LeafShape> shape;      ///< of every one of `leaves`
     vec3 centre{0.0F};                 ///< of an area source's light
-    std::array<vec3, 2> extent{};      ///< its two longest axes, as far as a uniform strip of equal spread reaches
     Rgb radiance{1.0F};                ///< lamps: intensity (cd) or normal irradiance (lux); emitters: 1
     float sun_radius = 0.0F;           ///< tangent of the angular radius
     bool has_size = false;             ///< false: a point or a parallel beam, which the last two numbers do not matter to
@@ -51,6 +61,9 @@ struct ParticleAim {
     vec2 low{0.0F}; ///< sun: metres across the axis about the target's centre; lamps: on the plane at distance 1
     vec2 high{0.0F};
     bool window = false; ///< false: from so close that directions are taken from a cone or from all round
+    // Area sources, as far as they face the target:
+    std::shared_ptr<const std::vector<double>> leaves; ///< weights of the source's leaves up to and including each
+    std::array<vec3, 2> extent{}; ///< two axes across the axis, as far as a uniform strip of equal spread reaches
 };
 ParticleAim make_aim(const ParticleSource& source, const SpecularTarget& target);
 

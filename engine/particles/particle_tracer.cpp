@@ -44,11 +44,12 @@ public:
         }
         const uvec3& t = s.triangles[hit.triangle];
         const auto p = rays.triangle(hit.surface, hit.triangle);
+        const mat3 turn(s.normal_matrix);
         std::array<vec3, 3> n;
         for (int k = 0; k < 3; ++k) {
-            const dvec3 w = s.normal_matrix * dvec3(s.mesh->normals[t[k]]);
-            const double length = glm::length(w);
-            n[std::size_t(k)] = length > 0.0 ? vec3(w / length) : hit.geometric_normal;
+            const vec3 w = turn * s.mesh->normals[t[k]];
+            const float length = glm::length(w);
+            n[std::size_t(k)] = length > 0.0F ? w / length : hit.geometric_normal;
         }
         const vec3 e1 = p[1] - p[0];
         const vec3 e2 = p[2] - p[0];
@@ -139,34 +140,49 @@ struct Spread { // symmetric 2 x 2
     [[nodiscard]] float determinant() const { return std::max(xx * yy - xy * xy, 0.0F); }
 };
 
+// What follows from how many particles a stream has: the same roots for every landing.
+struct Crowd {
+    std::uint32_t count = 0; ///< particles in the stream
+    float scale = 0.0F;      ///< of the half axes of what lies between neighbours
+    float crowd = 0.0F;      ///< see blur_share()
+    float most = 0.0F;       ///< share of the blur
+    explicit Crowd(std::uint32_t particles) : count(particles) {
+        const auto n = float(std::max(particles, 1U));
+        constexpr float kSpacing = 3.0F; // of the kernel's diameter over the mean distance of particles
+        scale = 0.5F * kSpacing / std::sqrt(n);
+        crowd = 20.0F * std::max(std::sqrt(n / 1e4F), 1.0F);
+        most = std::min(std::pow(n / 5e4F, -2.0F / 3.0F), 1.0F);
+    }
+};
+
 // Share of the blur that is there anyway (the source's size, rough surfaces) by which a kernel is widened. Such blur throws
 // neighbours of a stream about: their kernels no longer tile the light but fall on it by chance, n of them over the area of
 // image and blur together. As many must overlap as make their mean smooth, `crowd` times what tiling needs, but never more
 // than a share of the blur itself. With more particles more overlap and the share shrinks, so that noise and bias both
-// vanish in the end: kernels that shrink as fast as particles lie closer keep their noise for ever. `scale` is what own was
-// scaled by.
-float blur_share(const Spread& own, const Spread& blur, float scale, float n) {
-    const float crowd = 20.0F * std::max(std::sqrt(n / 1e4F), 1.0F);
-    const float most = std::min(std::pow(n / 5e4F, -2.0F / 3.0F), 1.0F);
+// vanish in the end: kernels that shrink as fast as particles lie closer keep their noise for ever.
+float blur_share(const Spread& own, const Spread& blur, const Crowd& by) {
+    const float scale2 = by.scale * by.scale;
     Spread spread = own;
-    spread.xx += scale * scale * blur.xx;
-    spread.xy += scale * scale * blur.xy;
-    spread.yy += scale * scale * blur.yy;
-    const float missing = std::max(crowd * crowd * spread.determinant() - own.determinant(), 0.0F);
+    spread.xx += scale2 * blur.xx;
+    spread.xy += scale2 * blur.xy;
+    spread.yy += scale2 * blur.yy;
+    const float missing = std::max(by.crowd * by.crowd * spread.determinant() - own.determinant(), 0.0F);
     const float mixed = own.xx * blur.yy + own.yy * blur.xx - 2.0F * own.xy * blur.xy;
     const float root = std::sqrt(std::max(mixed * mixed + 4.0F * blur.determinant() * missing, 0.0F));
     const float below = mixed + root; // det(own + x blur) = det own + missing, stable where the blur is a line
-    return below > 0.0F ? std::min(2.0F * missing / below, most) : 0.0F;
+    return below > 0.0F ? std::min(2.0F * missing / below, by.most) : 0.0F;
 }
 
 // Half axes of the kernel: what lies between a particle and its neighbours, and a share of the blur.
 void footprint(const Beam& beam, const vec3& normal, std::uint32_t count, Landing& out) {
-    constexpr float kSpacing = 3.0F; // of the kernel's diameter over the mean distance of particles
     vec3 t;
     vec3 b;
     make_frame(normal, t, b);
-    const auto n = float(std::max(count, 1U));
-    const float scale = 0.5F * kSpacing / std::sqrt(n);
+    static thread_local Crowd by(1); // of the stream at hand
+    if (by.count != count) {
+        by = Crowd(count);
+    }
+    const float scale = by.scale;
     Spread own;
     Spread blur;
     for (std::size_t k = 0; k < beam.used; ++k) {
@@ -177,7 +193,7 @@ void footprint(const Beam& beam, const vec3& normal, std::uint32_t count, Landin
             blur.add(v);
         }
     }
-    const float share = blur_share(own, blur, scale, n);
+    const float share = blur_share(own, blur, by);
     const float xx = own.xx + share * blur.xx, xy = own.xy + share * blur.xy, yy = own.yy + share * blur.yy;
     if (!std::isfinite(xx + xy + yy)) {
         return;

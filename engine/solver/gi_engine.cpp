@@ -31,7 +31,7 @@ bool GiEngine::has_solution() const { return impl_->solved; }
 Result<std::shared_ptr<const Solution>>
 GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContext& context,
                 const std::function<void(std::shared_ptr<const Solution>)>& on_snapshot) {
-    if (auto shown_otherwise = follow_wishes(scene, options)) {
+    if (auto shown_otherwise = follow_wishes(scene, options, context)) {
         if (on_snapshot) {
             on_snapshot(shown_otherwise);
         }
@@ -253,9 +253,10 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         if (s.particles && set.complete) {
             timer.next("caustics");
             if (s.caustics.empty()) {
-                s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, quality.caustics, nullptr, s.wishes);
+                s.caustics =
+                    build_caustic_light(*s.rays, s.charts, *s.particles, quality.caustics, nullptr, s.wishes, context);
             }
-            attach_caustics(set.surfaces, *s.rays, *s.particles, s.caustics);
+            set.complete = attach_caustics(set.surfaces, *s.rays, *s.particles, s.caustics, context);
         }
         return set;
     };

@@ -106,7 +106,8 @@ private:
     static void keep_question(Impl& impl, const Scene& scene, const SolveOptions& options);
     // The new solution where nothing but wishes about caustics (or that landings are asked for) differs from the last
     // complete one; else null.
-    std::shared_ptr<const Solution> follow_wishes(const Scene& scene, const SolveOptions& options);
+    std::shared_ptr<const Solution> follow_wishes(const Scene& scene, const SolveOptions& options,
+                                                  const RunContext& context);
     std::unique_ptr<Impl> impl_;
 };
 

@@ -435,7 +435,12 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     if (s.particles && (moves || !new_textures->empty())) {
         timer.next("caustics");
         const CausticReuse reuse{s.caustics, *new_textures};
-        s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse, s.wishes);
+        CausticLight light =
+            build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse, s.wishes, context);
+        if (context.should_stop()) {
+            return fail("", "", "stopped before the light had followed", "The next update goes on");
+        }
+        s.caustics = std::move(light);
     }
 
     context.progress("layers", 0.8);
@@ -445,8 +450,9 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     if (context.should_stop()) {
         return fail("", "", "stopped before the light had followed", "The next update goes on");
     }
-    if (s.particles && (moves || !new_textures->empty())) {
-        attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics);
+    if (s.particles && (moves || !new_textures->empty()) &&
+        !attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics, context)) {
+        return fail("", "", "stopped before the light had followed", "The next update goes on");
     }
     change = {};
     live.lit_anew.clear();

@@ -66,7 +66,8 @@ void GiEngine::keep_question(Impl& s, const Scene& scene, const SolveOptions& op
     s.live->options = options;
 }
 
-std::shared_ptr<const Solution> GiEngine::follow_wishes(const Scene& scene, const SolveOptions& options) {
+std::shared_ptr<const Solution> GiEngine::follow_wishes(const Scene& scene, const SolveOptions& options,
+                                                        const RunContext& context) {
     Impl& s = *impl_;
     if (!options.keep_for_updates || !s.live || !s.live->untouched) {
         return nullptr;
@@ -84,12 +85,16 @@ std::shared_ptr<const Solution> GiEngine::follow_wishes(const Scene& scene, cons
     if ((changed.empty() && !asked_for_landings && !asked_for_insides) || !(light_part(scene) == live.scene)) {
         return nullptr;
     }
-    s.wishes = std::move(wishes);
     if (!changed.empty() && s.particles) { // without particles a wish changes nothing
         const CausticReuse reuse{s.caustics, changed};
-        s.caustics = build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse, s.wishes);
-        attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics);
+        CausticLight light =
+            build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse, wishes, context);
+        if (!attach_caustics(live.layers.surfaces, *s.rays, *s.particles, light, context)) {
+            return nullptr; // stopped: nothing has changed
+        }
+        s.caustics = std::move(light);
     }
+    s.wishes = std::move(wishes);
     auto solution = std::make_shared<Solution>(*live.shown);
     solution->revision = options.revision;
     if (!options.keep_landings) {

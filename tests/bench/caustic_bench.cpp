@@ -2,6 +2,8 @@
 #include "engine/base/parallel.h"
 #include "engine/base/rng.h"
 #include "engine/layers/caustic_layer.h"
+#include "engine/layers/direct_map_builder.h"
+#include "engine/radiosity/mirror_light.h"
 #include "engine/raycast/scene_charts.h"
 #include "engine/reference/reference.h"
 #include "engine/solver/quality.h"
@@ -12,6 +14,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 
 namespace atrium::bench {
 namespace {
@@ -23,6 +26,41 @@ double wall() { return std::chrono::duration<double>(std::chrono::steady_clock::
 /// Irradiance (luminance) per texel of the receiver.
 using Map = std::vector<double>;
 
+/// Means over the texels of what `light` says at chart-space coordinates.
+template <class F> Map over_texels(const CausticScene& c, const SurfaceCharts& charts, const F& light) {
+    Map out(std::size_t(kSide) * kSide, 0.0);
+    constexpr int kSub = 3;
+    for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+            double sum = 0.0;
+            for (int k = 0; k < kSub * kSub; ++k) {
+                const vec2 at((float(x) + (float(k % kSub) + 0.5F) / kSub) / kSide,
+                              (float(y) + (float(k / kSub) + 0.5F) / kSub) / kSide);
+                sum += luminance(light(c.chart_position(charts, at)));
+            }
+            out[std::size_t(y) * kSide + std::size_t(x)] = sum / (kSub * kSub);
+        }
+    }
+    return out;
+}
+
+/// What light maps show of the light over flat mirrors: default mode has it by mirror images instead of particles.
+Map shown_over_mirrors(const CausticScene& c, const RayScene& rays, const std::vector<SurfaceCharts>& charts,
+                       const DirectLight& lamps, const MirrorLight& mirrors, const QualitySettings& quality,
+                       float light_floor) {
+    DirectMapSettings settings = quality.maps;
+    settings.light_floor = light_floor;
+    const DirectPart part{
+        [&](const vec3& p, const vec3& n) { return mirrors.irradiance(p, n, quality.field.direct, &lamps, nullptr); }, false,
+        true};
+    const RunContext context; // asked for as long as the maps live
+    LiveDirectMaps maps(
+        rays, charts, {part}, [&](std::uint32_t s) { return rays.surfaces()[s].back_side; }, settings, context);
+    const DirectMaps made = maps.build(0.0, 1.0);
+    const auto& map = made.front[c.receiver];
+    return over_texels(c, charts[c.receiver], [&](const vec2& uv) { return map ? map->irradiance(uv) : Rgb(0.0F); });
+}
+
 /// What textures show there, and the rest of the landings at the mesh's resolution.
 Map shown(const CausticScene& c, const RayScene& rays, const std::vector<SurfaceCharts>& charts, const ParticleMap& map,
           const CausticLight& light, float mesh_edge) {
@@ -31,21 +69,14 @@ Map shown(const CausticScene& c, const RayScene& rays, const std::vector<Surface
         if (side.surface != c.receiver || side.back) {
             continue;
         }
-        constexpr int kSub = 3;
-        for (int y = 0; y < kSide; ++y) {
-            for (int x = 0; x < kSide; ++x) {
-                double sum = 0.0;
-                for (int k = 0; k < kSub * kSub; ++k) {
-                    const vec2 at((float(x) + (float(k % kSub) + 0.5F) / kSub) / kSide,
-                                  (float(y) + (float(k / kSub) + 0.5F) / kSub) / kSide);
-                    const vec2 uv = c.chart_position(charts[c.receiver], at);
-                    for (const auto& t : side.textures) {
-                        sum += luminance(t->irradiance(uv));
-                    }
-                }
-                out[std::size_t(y) * kSide + std::size_t(x)] += sum / (kSub * kSub);
+        const Map textured = over_texels(c, charts[c.receiver], [&](const vec2& uv) {
+            Rgb sum(0.0F);
+            for (const auto& t : side.textures) {
+                sum += t->irradiance(uv);
             }
-        }
+            return sum;
+        });
+        std::transform(out.begin(), out.end(), textured.begin(), out.begin(), std::plus<>());
         const int cells = std::max(int(std::lround(c.size / mesh_edge)), 1);
         Map mesh(std::size_t(cells) * std::size_t(cells), 0.0);
         const double cell = double(c.size) * c.size / (double(cells) * cells);
@@ -77,11 +108,11 @@ double error(const Map& a, const Map& truth, double noise2) {
 }
 
 ParticleMap trace(const CausticScene& c, const RayScene& rays, const SpecularTargets& targets, const DirectLight& direct,
-                  std::uint32_t count, std::uint32_t seed) {
+                  const CarriedByImage& by_image, std::uint32_t count, std::uint32_t seed) {
     ParticleSettings settings;
     settings.particles = count;
     settings.seed = seed;
-    return ParticleMap(rays, targets, direct, c.emitters(rays), {}, settings, RunContext{});
+    return ParticleMap(rays, targets, direct, c.emitters(rays), by_image, settings, RunContext{});
 }
 
 void measure(const CausticScene& c, std::uint64_t truth_particles) {
@@ -113,20 +144,36 @@ void measure(const CausticScene& c, std::uint64_t truth_particles) {
                100.0 * std::sqrt(noise2 / size2));
     fmt::print("  {:>9} {:>9} {:>10} {:>10} {:>7} {:>8} {:>12} {:>12} {:>5}  {}\n", "particles", "landings", "paper",
                "default", "ratio", "trace s", "paper s", "default s", "boxes", "texels");
+    const auto floor =
+        float(0.05 * std::accumulate(truth.begin(), truth.end(), 0.0) / double(truth.size())); // as a solution's
+    const MirrorLight mirrors(rays);
+    double start = wall();
+    const Map over_mirrors =
+        mirrors.empty() ? Map(truth.size(), 0.0) : shown_over_mirrors(c, rays, charts, direct, mirrors, quality, floor);
+    if (!mirrors.empty()) {
+        fmt::print("  default mode shows flat mirrors by images: light maps in {:.3f} s\n", wall() - start);
+    }
     for (const std::uint32_t n : {3000U, 10'000U, 30'000U, 100'000U, 300'000U, 1'000'000U}) {
-        double start = wall();
-        const ParticleMap map = trace(c, rays, targets, direct, n, 1);
+        start = wall();
+        const ParticleMap all = trace(c, rays, targets, direct, {}, n, 1);
         const double traced = wall() - start;
+        const ParticleMap others = trace(
+            c, rays, targets, direct, [&](const Hit& hit) { return mirrors.carries(hit); }, n, 1);
         double errors[2];
         double seconds[2];
         std::size_t boxes = 0, texels = 0;
         for (const bool paper : {true, false}) {
             CausticSettings settings = quality.caustics;
             settings.paper = paper;
+            const ParticleMap& map = paper ? all : others;
             start = wall();
             const CausticLight light = build_caustic_light(rays, charts, map, settings);
             seconds[paper ? 0 : 1] = wall() - start;
-            errors[paper ? 0 : 1] = error(shown(c, rays, charts, map, light, settings.mesh_edge), truth, noise2);
+            Map seen = shown(c, rays, charts, map, light, settings.mesh_edge);
+            if (!paper) {
+                std::transform(seen.begin(), seen.end(), over_mirrors.begin(), seen.begin(), std::plus<>());
+            }
+            errors[paper ? 0 : 1] = error(seen, truth, noise2);
             boxes = light.texture_count();
             texels = 0;
             for (const auto& side : light.sides) {
@@ -135,8 +182,8 @@ void measure(const CausticScene& c, std::uint64_t truth_particles) {
                 }
             }
         }
-        fmt::print("  {:>9} {:>9} {:>9.1f}% {:>9.1f}% {:>7.2f} {:>8.3f} {:>12.3f} {:>12.3f} {:>5}  {}\n", map.emitted(),
-                   map.landings().size(), 100.0 * errors[0], 100.0 * errors[1], errors[1] / std::max(errors[0], 1e-9),
+        fmt::print("  {:>9} {:>9} {:>9.1f}% {:>9.1f}% {:>7.2f} {:>8.3f} {:>12.3f} {:>12.3f} {:>5}  {}\n", all.emitted(),
+                   all.landings().size(), 100.0 * errors[0], 100.0 * errors[1], errors[1] / std::max(errors[0], 1e-9),
                    traced, seconds[0], seconds[1], boxes, texels);
     }
 }

@@ -111,6 +111,53 @@ TEST(CausticTextures, EdgesOfTheChartDoNotDarken) {
     EXPECT_NEAR(side.textures[0]->irradiance(at_place(c, {0.6F, 0.5F}, 0, 0).uv).g, 0.0F, 1e-3F);
 }
 
+// A focus a thousand times as bright as the light around it: the box ends in that light, and must not show.
+TEST(CausticTextures, BoxesFadeIntoTheLightAroundThem) {
+    const Charted c(rectangle(3, 3));
+    constexpr float kCore = 0.02F, kEnd = 1.2F;
+    constexpr std::uint32_t kN = 60'000;
+    const float whole = 1.0F - 1.0F / std::sqrt(1.0F + kEnd * kEnd / (kCore * kCore));
+    // Lumen per square metre at a distance of the middle: (1 + r^2 / core^2)^-1.5, one lumen in all.
+    const auto density = [&](float r) {
+        return std::pow(1.0F + r * r / (kCore * kCore), -1.5F) / (2.0F * kPi * kCore * kCore * whole);
+    };
+    std::vector<CausticLanding> landings;
+    for (std::uint32_t i = 0; i < kN; ++i) {
+        const vec2 u = sobol_owen2(i, 0, 11);
+        const float left = 1.0F - u.x * whole;
+        const float r = kCore * std::sqrt(std::max(1.0F / (left * left) - 1.0F, 0.0F));
+        const vec2 p = vec2(1.5F) + r * vec2(std::cos(2.0F * kPi * u.y), std::sin(2.0F * kPi * u.y));
+        landings.push_back(at_place(c, p, 1.0F / float(kN), 1.5F / std::sqrt(float(kN) * density(r))));
+    }
+    const CausticSide side = c.build(landings);
+    ASSERT_EQ(side.textures.size(), 2U) << "the focus, and what is around it";
+    EXPECT_NEAR(power_of(side, landings), 1.0, 1e-5);
+    const auto fine = [](const CausticTexture& t) { return (t.high.x - t.low.x) / float(t.width); };
+    EXPECT_LT(2.0F * fine(*side.textures[0]), fine(*side.textures[1]));
+    // All round at the distances where the focus' box ends: neither a dent nor a ridge.
+    const float half = 0.5F * (side.textures[0]->high.x - side.textures[0]->low.x) * c.charts.charts[0].scale.x;
+    ASSERT_LT(half, 0.5F);
+    for (const float part : {0.5F, 0.7F, 0.8F, 0.9F, 0.95F, 1.0F, 1.05F, 1.1F, 1.2F, 1.5F, 2.0F}) {
+        double sum = 0.0;
+        constexpr int kAround = 400;
+        for (int i = 0; i < kAround; ++i) {
+            const float angle = 2.0F * kPi * float(i) / kAround;
+            const vec2 p = vec2(1.5F) + part * half * vec2(std::cos(angle), std::sin(angle));
+            for (const auto& t : side.textures) {
+                sum += t->irradiance(at_place(c, p, 0, 0).uv).g;
+            }
+        }
+        EXPECT_NEAR(sum / kAround / density(part * half), 1.0, 0.08) << part;
+    }
+    // Nothing is left of the focus' light where its box ends.
+    const CausticTexture& t = *side.textures[0];
+    for (std::uint32_t k = 0; k < t.width; ++k) {
+        EXPECT_EQ(t.image[k].g, 0.0F);
+        EXPECT_EQ(t.image[std::size_t(t.height - 1) * t.width + k].g, 0.0F);
+        EXPECT_LT(t.image[std::size_t(2) * t.width + k].g, 0.5F * density(half));
+    }
+}
+
 // Spots of light of all colours and powers on every chart, over faint even light, with footprints of all shapes and none.
 std::vector<CausticLanding> motley(const Charted& c, std::size_t n, std::uint32_t seed) {
     std::mt19937 engine(seed);

@@ -240,6 +240,33 @@ TEST(CausticWish, CostsNothingWhereThereAreNoCaustics) {
     EXPECT_EQ(after->surfaces, before->surfaces) << "shared, not solved again";
 }
 
+// What glass threw goes when the glass is taken out of the sun, also from surfaces that nothing lands on any more.
+TEST(MovingGlass, TakesItsCausticAlong) {
+    Scene scene;
+    test::add_rectangle(scene, "table", {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, 1.0F, 1.0F, test::add_material(scene, 0.5F));
+    test::add_rectangle(scene, "far", {3, -1, 0}, {0, 1, 0}, {1, 0, 0}, 1.0F, 1.0F, test::add_material(scene, 0.5F));
+    const NodeId ball = test::add_shape(scene, Sphere{0.1F}, {0, 0.15, 0}, test::add_specular(scene, true));
+    test::add_sun(scene, {0, -1, 0}, 1e5F);
+    GiEngine engine;
+    SolveOptions options;
+    options.quality = SolverSettings::Quality::Draft;
+    options.keep_for_updates = true;
+    const auto before = engine.solve(scene, options, {});
+    ASSERT_TRUE(before);
+    ASSERT_FALSE((*before)->surfaces[0]->caustic_textures_front.empty());
+    for (const double x : {3.0, 8.0}) { // over the other table, and over none; below both what it throws aside
+        scene.nodes.find(ball)->transform.translation = {x, x == 3.0 ? -0.85 : -5.0, 0};
+        options.hurried = true;
+        const auto moved = engine.solve(scene, options, {});
+        ASSERT_TRUE(moved) << moved.error().message();
+        EXPECT_TRUE((*moved)->surfaces[0]->caustic_textures_front.empty()) << x;
+        EXPECT_TRUE((*moved)->surfaces[0]->caustic_front.empty()) << x;
+        const bool lit =
+            !(*moved)->surfaces[1]->caustic_textures_front.empty() || !(*moved)->surfaces[1]->caustic_front.empty();
+        EXPECT_EQ(lit, x == 3.0);
+    }
+}
+
 TEST(Landings, AreToldWhenAskedFor) {
     Lit lit;
     const auto before = lit.solve();

@@ -3,6 +3,7 @@
 #include "engine/geometry/planar_regions.h"
 #include "engine/geometry/surface_charts.h"
 #include "engine/geometry/welding.h"
+#include "engine/layers/caustic_layer.h"
 #include "engine/layers/layer_builder.h"
 #include "engine/measure/error_audit.h"
 #include "engine/measure/light_difference.h"
@@ -11,6 +12,8 @@
 #include "engine/raycast/scene_charts.h"
 #include "engine/raycast/slabs.h"
 #include "engine/reference/reference.h"
+#include "tests/support/charted.h"
+#include "tests/support/moving_caustics.h"
 #include "tests/support/rooms.h"
 
 #include <atomic>
@@ -153,6 +156,31 @@ TEST(Stopping, RaySceneAndWhatIsMadeOfIt) {
             rays, field, {}, {}, [](std::uint32_t) { return false; }, c, 0.0, 1.0);
         EXPECT_EQ(set.complete, !c.stop.stop_requested());
         EXPECT_EQ(set.surfaces.empty(), c.stop.stop_requested());
+    });
+}
+
+TEST(Stopping, CausticTextures) {
+    const Charted c(rectangle(4, 4));
+    const auto landings = spot(c, kTriangles, {1.5F, 2.0F}, 0.8F);
+    for (const bool paper : {false, true}) {
+        CausticSettings settings;
+        settings.paper = paper;
+        ASSERT_FALSE(c.build(landings, settings).textures.empty());
+        // Landings are looked at again and again, and laid down one by one.
+        expect_stops(paper ? "caustics of 2001" : "caustics", 3, 16, [&](const RunContext& context) {
+            const CausticSide side = build_caustics(landings, c.charts, c.mesh->positions, c.triangles, settings, context);
+            EXPECT_EQ(side.textures.empty(), context.stop.stop_requested());
+            EXPECT_EQ(side.records.empty(), context.stop.stop_requested());
+        });
+    }
+    const Staged at(stage().scene);
+    ParticleSettings settings;
+    settings.particles = kTriangles;
+    const ParticleMap map(at.rays, at.targets, at.direct, at.emitters, {}, settings, RunContext{});
+    const std::vector<SurfaceCharts> charts = chart_surfaces(at.rays, {});
+    expect_stops("caustics of all surfaces", 1, 64, [&](const RunContext& context) {
+        const CausticLight light = build_caustic_light(at.rays, charts, map, {}, nullptr, {}, context);
+        EXPECT_EQ(light.empty(), context.stop.stop_requested());
     });
 }
 

@@ -1,0 +1,16 @@
+// Surfaces that shine as sources of particles: which of their leaves face a target, and how they spread.
+#pragma once
+
+#include "engine/particles/emission.h"
+
+namespace atrium {
+
+/// The shining leaves (at least one) of one surface as a source.
+ParticleSource area_source(const Hierarchy& emitters, const RayScene& rays, std::uint32_t surface,
+                           std::vector<std::uint32_t> leaves);
+
+/// Fills in what an aim at a target knows of an area source's leaves. Half of the sides of a lamp's bulb face away from a
+/// mirror: leaves send by what the target sees of them. None is left out, for what is told of it are means.
+void aim_leaves(const ParticleSource& source, const SpecularTarget& target, ParticleAim& aim);
+
+} // namespace atrium
