@@ -22,6 +22,10 @@ class TimedApplication : public QApplication {
 public:
     using QApplication::QApplication;
     bool notify(QObject* receiver, QEvent* event) override {
+        // Objects of other threads have their events through here, too, on those threads: all below is the UI thread's.
+        if (QThread::currentThread() != thread()) {
+            return QApplication::notify(receiver, event);
+        }
         // Within a drag or a dialog another loop turns inside an event: what it handles is counted by itself.
         const int level = thread()->loopLevel();
         const bool top = depth_ == 0 || level > level_;
