@@ -147,6 +147,8 @@ int main(int argc, char** argv) {
         atrium::ui::install_language(atrium::ui::chosen_language(atrium::ui::Settings().language()));
     }
 
+    atrium::ui::apply_appearance(atrium::ui::Settings().appearance());
+
     QCommandLineParser parser;
     parser.setApplicationDescription(QObject::tr("Edit interiors with live global illumination."));
     const QCommandLineOption help = parser.addHelpOption();

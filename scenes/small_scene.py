@@ -92,8 +92,11 @@ class Scene:
         """Writes <script's folder>/<name of the folder>.glb."""
         folder = os.path.dirname(os.path.abspath(script))
         name = os.path.basename(script)[len("make_"):-len(".py")].replace("_", "-")
+        self.write_to(os.path.join(folder, name + ".glb"), "scenes/%s/%s" % (name, os.path.basename(script)))
+
+    def write_to(self, path, generator):
         held = {child for node in self.nodes for child in node.get("children", ())}
-        document = {"asset": {"version": "2.0", "generator": "scenes/%s/%s" % (name, os.path.basename(script)),
+        document = {"asset": {"version": "2.0", "generator": generator,
                               "copyright": "The Atrium authors, Apache-2.0"},
                     "scene": 0, "scenes": [{"name": self.name, "nodes": [i for i in range(len(self.nodes)) if i not in held]}],
                     "nodes": self.nodes, "meshes": self.meshes, "cameras": self.cameras,
@@ -112,8 +115,9 @@ class Scene:
         text = json.dumps(document, separators=(",", ":")).encode()
         text += b" " * (-len(text) % 4)
         data = bytes(self.data) + b"\0" * (-len(self.data) % 4)
-        with open(os.path.join(folder, name + ".glb"), "wb") as out:
+        with open(path, "wb") as out:
             out.write(struct.pack("<III", 0x46546C67, 2, 28 + len(text) + len(data)))
             out.write(struct.pack("<II", len(text), 0x4E4F534A) + text)
             out.write(struct.pack("<II", len(data), 0x004E4942) + data)
+        name = os.path.splitext(os.path.basename(path))[0]
         print("%s: %d triangles, %d nodes" % (name, self.triangles, len(self.nodes)), file=sys.stderr)

@@ -244,7 +244,13 @@ Result<std::vector<AuditPlace>> audit_places(const Scene& scene, const Solution&
 
 std::shared_ptr<const Solution> audited(const Scene& scene, std::shared_ptr<const Solution> solution,
                                         const AuditSettings& settings, const RunContext& context) {
-    const auto found = audit_error(scene, *solution, settings, context);
+    return audited_with_places(scene, std::move(solution), settings, context).solution;
+}
+
+Audited audited_with_places(const Scene& scene, std::shared_ptr<const Solution> solution, const AuditSettings& settings,
+                            const RunContext& context) {
+    std::vector<AuditPlace> places;
+    const auto found = audit(scene, *solution, settings, context, &places);
     if (!found) {
         return solution;
     }
@@ -252,7 +258,7 @@ std::shared_ptr<const Solution> audited(const Scene& scene, std::shared_ptr<cons
     out->statistics.audit = *found;
     // Where noise hides an error that is smaller than itself, the bound is what is known.
     out->statistics.error_estimate = found->rms > 0.0 ? found->rms : found->high;
-    return out;
+    return {std::move(out), std::move(places)};
 }
 
 } // namespace atrium

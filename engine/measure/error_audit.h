@@ -44,6 +44,19 @@ struct AuditPlace {
 Result<std::vector<AuditPlace>> audit_places(const Scene& scene, const Solution& solution, const AuditSettings& settings,
                                              const RunContext& context);
 
+/// A solution with its audit, and the places that the figures are made of: none where it could not be made.
+struct Audited {
+    Audited() = default;
+    Audited(std::shared_ptr<const Solution> light) : solution(std::move(light)) {} // NOLINT: of which nothing is known
+    Audited(std::shared_ptr<const Solution> light, std::vector<AuditPlace> asked)
+        : solution(std::move(light)), places(std::move(asked)) {}
+    std::shared_ptr<const Solution> solution;
+    std::vector<AuditPlace> places;
+};
+/// audited(), with its places.
+Audited audited_with_places(const Scene& scene, std::shared_ptr<const Solution> solution, const AuditSettings& settings,
+                            const RunContext& context);
+
 /// The same solution with an audit in its statistics, which then is its error_estimate too; as it was where the audit could
 /// not be made or was stopped.
 std::shared_ptr<const Solution> audited(const Scene& scene, std::shared_ptr<const Solution> solution,

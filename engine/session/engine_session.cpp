@@ -62,6 +62,7 @@ struct EngineSession::Impl {
         QualityScheduler::Outcome outcome = QualityScheduler::Outcome::Failed;
         Picture picture; ///< may be null
         std::string message;
+        std::shared_ptr<const LocalError> error; ///< of the picture, where it was measured
     };
 
     // ---- engine thread ----
@@ -140,7 +141,10 @@ struct EngineSession::Impl {
         const bool updatable = ended.picture && ended.picture->updatable;
         lock.lock();
         if (ended.picture && !scheduler.abandoned() && ended.picture != latest) {
-            publish(std::move(ended.picture));
+            if (latest && !latest->surfaces.empty() && latest->surfaces == ended.picture->surfaces && !ended.error) {
+                keep_audit(ended); // the same light, told with more or less beside it
+            }
+            publish(std::move(ended.picture), std::move(ended.error));
         }
         if (ended.outcome == QualityScheduler::Outcome::Failed && !scheduler.abandoned()) {
             message = std::move(ended.message);
@@ -166,12 +170,13 @@ struct EngineSession::Impl {
         SolveOptions options = options_of_scene();
         options.quality = quality;
         try {
-            Picture out = audit(scene, light, options, context);
+            Audited out = audit(scene, light, options, context);
             return {stop.stop_requested() ? QualityScheduler::Outcome::Stopped : QualityScheduler::Outcome::Audited,
-                    std::move(out),
-                    {}};
+                    std::move(out.solution),
+                    {},
+                    out.places.empty() ? nullptr : std::make_shared<const LocalError>(std::move(out.places))};
         } catch (...) {
-            return {QualityScheduler::Outcome::Stopped, nullptr, {}};
+            return {QualityScheduler::Outcome::Stopped, nullptr, {}, nullptr};
         }
     }
 
@@ -194,21 +199,21 @@ struct EngineSession::Impl {
             });
             if (!result) {
                 const Outcome failed = kind == QualityScheduler::Kind::Full ? Outcome::Failed : Outcome::Unfit;
-                return {stop.stop_requested() ? Outcome::Stopped : failed, nullptr, result.error().message()};
+                return {stop.stop_requested() ? Outcome::Stopped : failed, nullptr, result.error().message(), nullptr};
             }
             if (*result == nullptr) {
-                return {Outcome::Failed, nullptr, "The light simulation returned no picture."};
+                return {Outcome::Failed, nullptr, "The light simulation returned no picture.", nullptr};
             }
             if (kind != QualityScheduler::Kind::Full && !(*result)->final) {
-                return {options.hurried ? Outcome::Hurried : Outcome::Settled, *result, {}};
+                return {options.hurried ? Outcome::Hurried : Outcome::Settled, *result, {}, nullptr};
             }
-            return {(*result)->final ? Outcome::Final : Outcome::Stopped, *result, {}};
+            return {(*result)->final ? Outcome::Final : Outcome::Stopped, *result, {}, nullptr};
         } catch (const std::bad_alloc&) {
-            return {Outcome::Failed, nullptr, "There is not enough memory for the light of this scene."};
+            return {Outcome::Failed, nullptr, "There is not enough memory for the light of this scene.", nullptr};
         } catch (const std::exception& e) {
-            return {Outcome::Failed, nullptr, std::string("The light simulation failed: ") + e.what()};
+            return {Outcome::Failed, nullptr, std::string("The light simulation failed: ") + e.what(), nullptr};
         } catch (...) {
-            return {Outcome::Failed, nullptr, "The light simulation failed for an unknown reason."};
+            return {Outcome::Failed, nullptr, "The light simulation failed for an unknown reason.", nullptr};
         }
     }
 
@@ -257,10 +262,21 @@ struct EngineSession::Impl {
 
     // ---- with the lock held ----
 
-    void publish(Picture picture) {
+    void publish(Picture picture, std::shared_ptr<const LocalError> measured = nullptr) {
         latest_revision = revision; // of the scene being solved; publish() is called during a solve only
         latest = std::move(picture);
+        error = std::move(measured);
         drop_insides();
+    }
+    /// What is known of the error of the picture on show is known of another picture of the same light.
+    void keep_audit(Ended& ended) const {
+        if (ended.picture->statistics.audit.points == 0 && latest->statistics.audit.points > 0) {
+            auto known = std::make_shared<Solution>(*ended.picture);
+            known->statistics.audit = latest->statistics.audit;
+            known->statistics.error_estimate = latest->statistics.error_estimate;
+            ended.picture = std::move(known);
+            ended.error = error;
+        }
     }
     /// Insides that nobody wants any more go, with their memory.
     void drop_insides() {
@@ -296,6 +312,7 @@ struct EngineSession::Impl {
             pending_load = std::move(next);
             scheduler.on_load(stored != nullptr, stored != nullptr && stored->final);
             latest = std::move(stored);
+            error.reset();
             latest_revision = document_revision; // a stored solution is of the scene it was stored with
             posted_revision = document_revision;
             light_revision = document_revision;
@@ -348,6 +365,7 @@ struct EngineSession::Impl {
         const bool solving = out.state == SessionStatus::State::Solving;
         out.moving = scheduler.moving();
         out.refining = scheduler.refining();
+        out.preparing = scheduler.preparing();
         out.settling = scheduler.unsettled() || (latest != nullptr && latest->statistics.update.degraded);
         out.posted_revision = posted_revision;
         if (latest != nullptr) {
@@ -389,7 +407,8 @@ struct EngineSession::Impl {
     QualityScheduler scheduler;
     StopFlag running_stop;
     Picture latest;
-    std::uint64_t latest_revision = 0; ///< of the scene that `latest` shows
+    std::shared_ptr<const LocalError> error; ///< of `latest`
+    std::uint64_t latest_revision = 0;       ///< of the scene that `latest` shows
     std::uint64_t posted_revision = 0;
     std::uint64_t light_revision = 0; ///< newest edit that changed light
     std::string phase;
@@ -407,6 +426,9 @@ EngineSession::~EngineSession() = default;
 
 void EngineSession::load(Scene scene, std::uint64_t revision, std::shared_ptr<const Solution> stored) {
     impl_->load(std::move(scene), revision, std::move(stored));
+}
+void EngineSession::prepare() {
+    impl_->steer([this] { impl_->scheduler.on_prepare(); });
 }
 void EngineSession::post(const SceneEdit& edit, std::uint64_t revision, bool in_gesture) {
     impl_->post(edit, revision, in_gesture);
@@ -438,6 +460,10 @@ void EngineSession::keep_insides(bool on) {
 std::shared_ptr<const Solution> EngineSession::latest() const {
     const std::lock_guard lock(impl_->mutex);
     return impl_->latest;
+}
+EngineSession::Shown EngineSession::shown() const {
+    const std::lock_guard lock(impl_->mutex);
+    return {impl_->latest, impl_->error};
 }
 SessionStatus EngineSession::status() const { return impl_->status(); }
 

@@ -1,6 +1,7 @@
 // The job queue: the editor and atrium-cli post edits, an engine thread answers with Solutions.
 #pragma once
 
+#include "engine/measure/local_error.h"
 #include "engine/scene/scene_edit.h"
 #include "engine/solver/gi_engine.h"
 #include "engine/solver/solution.h"
@@ -20,6 +21,7 @@ struct SessionStatus {
     bool moving = false;               ///< latest() follows a hand in a hurry
     bool settling = false;             ///< latest() was made in a hurry, and better light is still to come
     bool refining = false;             ///< latest() is an exact update; the full solution is still to come
+    bool preparing = false;            ///< latest() is complete; what follows edits of it is being made (prepare())
     std::string phase;                 ///< "visibility", "layers", ...; empty when idle
     double fraction = 0;               ///< 0 to 1
     double elapsed_seconds = 0;
@@ -39,9 +41,9 @@ public:
     using SolveFunction = std::function<Result<std::shared_ptr<const Solution>>(
         const Scene&, const SolveOptions&, const RunContext&,
         const std::function<void(std::shared_ptr<const Solution>)>& on_snapshot)>;
-    /// What audited() does: a complete solution with its error, or the same one where that was stopped.
-    using AuditFunction = std::function<std::shared_ptr<const Solution>(const Scene&, std::shared_ptr<const Solution>,
-                                                                        const SolveOptions&, const RunContext&)>;
+    /// What audited_with_places() does: a complete solution with its error, or the same one where that was stopped.
+    using AuditFunction =
+        std::function<Audited(const Scene&, std::shared_ptr<const Solution>, const SolveOptions&, const RunContext&)>;
     /// Without `audit` errors are not measured.
     EngineSession(std::function<void()> wake, SolveFunction solve, AuditFunction audit = {});
     ~EngineSession();
@@ -50,6 +52,10 @@ public:
 
     /// Starts over with another document. `stored` (may be null) is shown at once; with it nothing is solved until an edit.
     void load(Scene scene, std::uint64_t revision, std::shared_ptr<const Solution> stored);
+    /// After load() with a complete solution: computes it once more in the background, unseen, so that the engine has what
+    /// hurried updates start from, and the first drag is as fast as it was before the scene was saved. Any edit of light
+    /// ends it. Does nothing where the engine has that, or is at work on the light already.
+    void prepare();
     /// Posts one edit of the document, already applied there. Never blocks, never refuses; a newer placement replaces a
     /// pending one (supersedes()). While `in_gesture` light follows by hurried updates; the first edit after it (or
     /// 200 ms of rest) starts the full solution. See QualityScheduler.
@@ -68,6 +74,12 @@ public:
     void keep_insides(bool on);
 
     [[nodiscard]] std::shared_ptr<const Solution> latest() const; ///< may be null
+    /// latest(), and how far off it is likely to be at a place: null where this session has not measured that.
+    struct Shown {
+        std::shared_ptr<const Solution> solution;
+        std::shared_ptr<const LocalError> error;
+    };
+    [[nodiscard]] Shown shown() const;
     [[nodiscard]] SessionStatus status() const;
 
 private:

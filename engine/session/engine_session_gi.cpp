@@ -16,11 +16,11 @@ EngineSession::SolveFunction solve_with_gi_engine() {
     };
 }
 
-std::shared_ptr<const Solution> audit(const Scene& scene, std::shared_ptr<const Solution> solution,
-                                      const SolveOptions& options, const RunContext& context) {
+Audited audit(const Scene& scene, std::shared_ptr<const Solution> solution, const SolveOptions& options,
+              const RunContext& context) {
     AuditSettings settings = audit_settings(options.quality);
     settings.seed = options.seed;
-    return audited(scene, std::move(solution), settings, context);
+    return audited_with_places(scene, std::move(solution), settings, context);
 }
 
 } // namespace

@@ -14,7 +14,14 @@ void QualityScheduler::on_load(bool has_picture, bool complete) {
     failed_ = false;
     in_gesture_ = false;
     audit_due_ = false;
+    prepare_ = Prepare::No;
     abandoned_ = running_;
+}
+
+void QualityScheduler::on_prepare() {
+    if (complete_ && !updatable_ && !needed_ && prepare_ == Prepare::No) {
+        prepare_ = Prepare::Wanted;
+    }
 }
 
 void QualityScheduler::on_edit(Time now, bool changes_light, bool in_gesture) {
@@ -24,6 +31,7 @@ void QualityScheduler::on_edit(Time now, bool changes_light, bool in_gesture) {
         needed_ = true;
         complete_ = false;
         audit_due_ = false;
+        prepare_ = prepare_ == Prepare::Wanted ? Prepare::No : prepare_; // the solve of the edit does that, too
         cancelled_ = false;
         failed_ = false;
     }
@@ -36,6 +44,10 @@ void QualityScheduler::on_cancel() {
     if (running_ && running_kind_ == Kind::Audit && !needed_) {
         stopping_ = true; // the light is complete all the same
         return;
+    }
+    if (prepare_ != Prepare::No && !needed_) {
+        prepare_ = prepare_ == Prepare::Wanted ? Prepare::No : Prepare::Stopping;
+        return; // likewise
     }
     if (running_ || needed_) {
         cancelled_ = true;
@@ -57,6 +69,7 @@ void QualityScheduler::on_started(Kind kind) {
     if (kind == Kind::Audit) {
         audit_due_ = false;
     } else {
+        prepare_ = prepare_ == Prepare::Wanted && !needed_ ? Prepare::Running : Prepare::No;
         needed_ = false;
     }
 }
@@ -70,6 +83,9 @@ void QualityScheduler::on_finished(Outcome outcome, bool updatable, bool audit) 
     }
     if (kind == Kind::Audit) {
         return; // known or not, the light is what it was
+    }
+    if (std::exchange(prepare_, Prepare::No) != Prepare::No && outcome != Outcome::Final) {
+        return; // likewise
     }
     switch (outcome) {
     case Outcome::Audited: break;
@@ -119,6 +135,9 @@ void QualityScheduler::on_failure() {
 }
 
 QualityScheduler::Kind QualityScheduler::kind() const {
+    if (prepare_ == Prepare::Wanted && !needed_ && !unsettled_) {
+        return Kind::Full;
+    }
     if (audit_due_ && !needed_ && !unsettled_ && !refining_) {
         return Kind::Audit;
     }
@@ -129,7 +148,8 @@ QualityScheduler::Kind QualityScheduler::kind() const {
 }
 
 QualityScheduler::Time QualityScheduler::start_time() const {
-    if (running_ || cancelled_ || failed_ || !(needed_ || unsettled_ || refining_ || audit_due_)) {
+    if (running_ || cancelled_ || failed_ ||
+        !(needed_ || unsettled_ || refining_ || audit_due_ || prepare_ == Prepare::Wanted)) {
         return Time::max();
     }
     return needed_ || audit_due_ || !in_gesture_ ? Time::min() : last_edit_ + kRest;
@@ -148,7 +168,7 @@ QualityScheduler::Time QualityScheduler::stop_time() const {
     if (running_kind_ == Kind::Audit) {
         return needed_ || stopping_ ? Time::min() : Time::max();
     }
-    if (needed_ && (!in_gesture_ || updatable_)) {
+    if (prepare_ == Prepare::Stopping || (needed_ && (!in_gesture_ || updatable_))) {
         return Time::min();
     }
     return needed_ ? last_edit_ + kRest : Time::max();

@@ -11,7 +11,8 @@ namespace atrium {
 /// light follows by hurried updates, if the engine keeps a complete solution to start from, and so it does after a single
 /// edit. When the hand rests or lets go an exact update settles the light, and the full solve comes after it. Without a
 /// complete solution the running solve goes on until the hand rests, so that there is light to see while dragging. Once all
-/// is complete its error is measured; that is no work anybody waits for, and any edit of light ends it.
+/// is complete its error is measured; that is no work anybody waits for, and any edit of light ends it. Nor is preparing:
+/// light that was stored is solved once more for what the engine keeps of it.
 class QualityScheduler {
 public:
     using Time = RunContext::Clock::time_point;
@@ -33,6 +34,8 @@ public:
 
     /// Another document. `has_picture`: it came with a solution, so nothing runs until an edit; `complete`: a final one.
     void on_load(bool has_picture, bool complete);
+    /// Complete light came from a file, so that the engine keeps nothing of it: a full solve makes up for that.
+    void on_prepare();
     void on_edit(Time now, bool changes_light, bool in_gesture);
     void on_gesture_end();
     void on_cancel();
@@ -62,12 +65,16 @@ public:
     [[nodiscard]] bool unsettled() const { return unsettled_; }
     /// The light on show is an exact update's; a full solve is to follow or runs.
     [[nodiscard]] bool refining() const { return refining_; }
+    /// on_prepare() is being answered.
+    [[nodiscard]] bool preparing() const { return prepare_ == Prepare::Running && running(); }
 
 private:
     bool running_ = false;
     bool updatable_ = false; ///< hurried updates have something to start from
     bool unsettled_ = false; ///< the newest light was made in a hurry
     bool refining_ = false;  ///< the newest light is an exact update's
+    enum class Prepare : std::uint8_t { No, Wanted, Running, Stopping };
+    Prepare prepare_ = Prepare::No; ///< what became of on_prepare()
     Kind running_kind_ = Kind::Full;
     bool needed_ = false;    ///< a solve must start after (or instead of) the running one
     bool complete_ = false;  ///< the newest scene has its final solution

@@ -352,10 +352,6 @@
         <translation>&amp;Sélectionner</translation>
     </message>
     <message>
-        <source>Select objects by clicking</source>
-        <translation>Sélectionner des objets en cliquant</translation>
-    </message>
-    <message>
         <source>&amp;Move</source>
         <translation>&amp;Déplacer</translation>
     </message>
@@ -763,6 +759,18 @@
         <source>Show beside the legend in false colour how often amounts occur: on the selection, or on everything where nothing is selected</source>
         <translation>Montrer à côté de la légende des fausses couleurs la fréquence des valeurs : sur la sélection, ou partout si rien n&apos;est sélectionné</translation>
     </message>
+    <message>
+        <source>Select objects by clicking or with a box; drag what is selected to move it</source>
+        <translation>Sélectionner des objets d&apos;un clic ou avec un cadre ; faire glisser la sélection la déplace</translation>
+    </message>
+    <message>
+        <source>&amp;Own Axes</source>
+        <translation>Axes pr&amp;opres</translation>
+    </message>
+    <message>
+        <source>Move and turn along the axes of the object instead of those of the world</source>
+        <translation>Déplacer et tourner selon les axes de l&apos;objet au lieu de ceux du monde</translation>
+    </message>
 </context>
 <context>
     <name>Caustics</name>
@@ -929,6 +937,737 @@
     <message>
         <source>%1 %</source>
         <translation>%1&#xa0;%</translation>
+    </message>
+</context>
+<context>
+    <name>Engine</name>
+    <message>
+        <source>cannot be opened: %1</source>
+        <translation>ne peut pas être ouvert : %1</translation>
+    </message>
+    <message>
+        <source>is not a regular file</source>
+        <translation>n&apos;est pas un fichier ordinaire</translation>
+    </message>
+    <message>
+        <source>is larger than %1 MiB</source>
+        <translation>dépasse %1 Mio</translation>
+    </message>
+    <message>
+        <source>cannot be read: %1</source>
+        <translation>ne peut pas être lu : %1</translation>
+    </message>
+    <message>
+        <source>became shorter while being read</source>
+        <translation>a raccourci pendant la lecture</translation>
+    </message>
+    <message>
+        <source>cannot be written: %1</source>
+        <translation>ne peut pas être écrit : %1</translation>
+    </message>
+    <message>
+        <source>cannot be replaced: %1</source>
+        <translation>ne peut pas être remplacé : %1</translation>
+    </message>
+    <message>
+        <source>could not be written: %1</source>
+        <translation>n&apos;a pas pu être écrit : %1</translation>
+    </message>
+    <message>
+        <source>Choose a folder that exists and that you may write to.</source>
+        <translation>Choisissez un dossier qui existe et où vous pouvez écrire.</translation>
+    </message>
+    <message>
+        <source>The file that was there before is unchanged.</source>
+        <translation>Le fichier précédent est inchangé.</translation>
+    </message>
+    <message>
+        <source>The file that was there before is unchanged. Free some space, or save into another folder.</source>
+        <translation>Le fichier précédent est inchangé. Libérez de la place ou enregistrez dans un autre dossier.</translation>
+    </message>
+    <message>
+        <source>&quot;%1&quot; is not a file beside the scene</source>
+        <translation>« %1 » n&apos;est pas un fichier placé à côté de la scène</translation>
+    </message>
+    <message>
+        <source>Only relative file names and data: are opened.</source>
+        <translation>Seuls les noms de fichier relatifs et data: sont ouverts.</translation>
+    </message>
+    <message>
+        <source>the folder of the scene cannot be read: %1</source>
+        <translation>le dossier de la scène ne peut pas être lu : %1</translation>
+    </message>
+    <message>
+        <source>&quot;%1&quot; lies outside the folder of the scene and was not opened</source>
+        <translation>« %1 » se trouve hors du dossier de la scène et n&apos;a pas été ouvert</translation>
+    </message>
+    <message>
+        <source>Put the file into the scene&apos;s folder and refer to it by a relative name.</source>
+        <translation>Placez le fichier dans le dossier de la scène et désignez-le par un nom relatif.</translation>
+    </message>
+    <message>
+        <source>is not valid glTF: %1</source>
+        <translation>n&apos;est pas du glTF valide : %1</translation>
+    </message>
+    <message>
+        <source>Export the file again.</source>
+        <translation>Exportez le fichier à nouveau.</translation>
+    </message>
+    <message>
+        <source>there is not enough memory to open the file</source>
+        <translation>il n&apos;y a pas assez de mémoire pour ouvrir le fichier</translation>
+    </message>
+    <message>
+        <source>is not a kind of scene file that can be written</source>
+        <translation>n&apos;est pas un type de fichier de scène qui puisse être écrit</translation>
+    </message>
+    <message>
+        <source>Name it .atrium, .glb or .gltf.</source>
+        <translation>Donnez-lui l&apos;extension .atrium, .glb ou .gltf.</translation>
+    </message>
+    <message>
+        <source>is not at hand</source>
+        <translation>est introuvable</translation>
+    </message>
+    <message>
+        <source>Put it beside the scene file, where it was exported.</source>
+        <translation>Placez-le à côté du fichier de scène, là où il a été exporté.</translation>
+    </message>
+    <message>
+        <source>not an image of a known format</source>
+        <translation>n&apos;est pas une image d&apos;un format connu</translation>
+    </message>
+    <message>
+        <source>the image is empty</source>
+        <translation>l&apos;image est vide</translation>
+    </message>
+    <message>
+        <source>Use PNG, JPEG, HDR or EXR.</source>
+        <translation>Utilisez PNG, JPEG, HDR ou EXR.</translation>
+    </message>
+    <message>
+        <source>the image cannot be decoded: %1</source>
+        <translation>l&apos;image ne peut pas être décodée : %1</translation>
+    </message>
+    <message>
+        <source>the image has no pixels that can be used</source>
+        <translation>l&apos;image n&apos;a pas de pixels utilisables</translation>
+    </message>
+    <message>
+        <source>the image is too large: %1 x %2</source>
+        <translation>l&apos;image est trop grande : %1 x %2</translation>
+    </message>
+    <message>
+        <source>Scale it down to at most 8192 x 8192.</source>
+        <translation>Réduisez-la à 8192 x 8192 au plus.</translation>
+    </message>
+    <message>
+        <source>the image is damaged: %1</source>
+        <translation>l&apos;image est endommagée : %1</translation>
+    </message>
+    <message>
+        <source>Surfaces that use it show their plain colour.</source>
+        <translation>Les surfaces qui l&apos;utilisent montrent leur couleur unie.</translation>
+    </message>
+    <message>
+        <source>has no image that can be read</source>
+        <translation>n&apos;a pas d&apos;image lisible</translation>
+    </message>
+    <message>
+        <source>is neither .exr nor .png</source>
+        <translation>n&apos;est ni .exr ni .png</translation>
+    </message>
+    <message>
+        <source>Name the picture .exr or .png.</source>
+        <translation>Donnez à l&apos;image l&apos;extension .exr ou .png.</translation>
+    </message>
+    <message>
+        <source>the picture could not be encoded: %1</source>
+        <translation>l&apos;image n&apos;a pas pu être encodée : %1</translation>
+    </message>
+    <message>
+        <source>a light of the unknown type &quot;%1&quot; was left out</source>
+        <translation>une lumière du type inconnu « %1 » a été omise</translation>
+    </message>
+    <message>
+        <source>Use a point, spot or directional light.</source>
+        <translation>Utilisez une lumière ponctuelle, un spot ou une lumière directionnelle.</translation>
+    </message>
+    <message>
+        <source>a colour of %1 was set to 1: with it the light would be too strong</source>
+        <translation>une couleur de %1 a été ramenée à 1 : la lumière aurait été trop forte</translation>
+    </message>
+    <message>
+        <source>a height of 0 was set to 1 m</source>
+        <translation>une hauteur de 0 a été portée à 1 m</translation>
+    </message>
+    <message>
+        <source>a base colour of %1 was set to %2</source>
+        <translation>une couleur de base de %1 a été ramenée à %2</translation>
+    </message>
+    <message>
+        <source>A surface cannot reflect more light than falls on it.</source>
+        <translation>Une surface ne peut pas réfléchir plus de lumière qu&apos;elle n&apos;en reçoit.</translation>
+    </message>
+    <message>
+        <source>an emissive strength of %1 was set to 1</source>
+        <translation>une émission de %1 a été mise à 1</translation>
+    </message>
+    <message>
+        <source>an emissive strength of %1 was set to %2 cd/m2</source>
+        <translation>une émission de %1 a été ramenée à %2 cd/m2</translation>
+    </message>
+    <message>
+        <source>a negative emissive colour was set to 0</source>
+        <translation>une couleur d&apos;émission négative a été mise à 0</translation>
+    </message>
+    <message>
+        <source>Light cannot be negative.</source>
+        <translation>La lumière ne peut pas être négative.</translation>
+    </message>
+    <message>
+        <source>The sun has 1.6e9 cd/m2.</source>
+        <translation>Le soleil a 1,6e9 cd/m2.</translation>
+    </message>
+    <message>
+        <source>an index of refraction of %1 was set to 1.5</source>
+        <translation>un indice de réfraction de %1 a été mis à 1,5</translation>
+    </message>
+    <message>
+        <source>It must be at least 1: glass 1.5, water 1.33.</source>
+        <translation>Il doit être d&apos;au moins 1 : verre 1,5, eau 1,33.</translation>
+    </message>
+    <message>
+        <source>an attenuation distance that is not positive was ignored</source>
+        <translation>une distance d&apos;atténuation qui n&apos;est pas positive a été ignorée</translation>
+    </message>
+    <message>
+        <source>has no positions and is not shown</source>
+        <translation>n&apos;a pas de positions et n&apos;est pas montré</translation>
+    </message>
+    <message>
+        <source>has no triangles and is not shown</source>
+        <translation>n&apos;a pas de triangles et n&apos;est pas montré</translation>
+    </message>
+    <message>
+        <source>a rotation without direction was left out</source>
+        <translation>une rotation sans direction a été omise</translation>
+    </message>
+    <message>
+        <source>a rotation that was not of unit length was normalised</source>
+        <translation>une rotation qui n&apos;était pas de longueur unité a été normalisée</translation>
+    </message>
+    <message>
+        <source>the last row of its matrix is not 0 0 0 1 and was replaced by that</source>
+        <translation>la dernière ligne de sa matrice n&apos;est pas 0 0 0 1 et a été remplacée par cela</translation>
+    </message>
+    <message>
+        <source>%1 instances became nodes of their own</source>
+        <translation>%1 instances sont devenues des nœuds à part entière</translation>
+    </message>
+    <message>
+        <source>the extension %1 is not interpreted</source>
+        <translation>l&apos;extension %1 n&apos;est pas interprétée</translation>
+    </message>
+    <message>
+        <source>What it says about materials is kept when saving.</source>
+        <translation>Ce qu&apos;elle dit des matériaux est gardé à l&apos;enregistrement.</translation>
+    </message>
+    <message>
+        <source>animations are not played and will not be saved</source>
+        <translation>les animations ne sont pas jouées et ne seront pas enregistrées</translation>
+    </message>
+    <message>
+        <source>Lamps that use it shine as plain lights, or not at all.</source>
+        <translation>Les lampes qui l&apos;utilisent éclairent comme de simples lumières, ou pas du tout.</translation>
+    </message>
+    <message>
+        <source>is larger than 32 MiB, so it is no photometric file</source>
+        <translation>dépasse 32 Mio : ce n&apos;est pas un fichier photométrique</translation>
+    </message>
+    <message>
+        <source>Choose an IES file (LM-63).</source>
+        <translation>Choisissez un fichier IES (LM-63).</translation>
+    </message>
+    <message>
+        <source>is no text file</source>
+        <translation>n&apos;est pas un fichier texte</translation>
+    </message>
+    <message>
+        <source>Choose an IES file (LM-63), which is plain text.</source>
+        <translation>Choisissez un fichier IES (LM-63), qui est du texte brut.</translation>
+    </message>
+    <message>
+        <source>has no TILT= line, so it is no IES photometric file</source>
+        <translation>n&apos;a pas de ligne TILT= : ce n&apos;est pas un fichier photométrique IES</translation>
+    </message>
+    <message>
+        <source>Choose an LM-63 file (.ies), or ask the maker of the luminaire for one.</source>
+        <translation>Choisissez un fichier LM-63 (.ies) ou demandez-en un au fabricant du luminaire.</translation>
+    </message>
+    <message>
+        <source>all intensities are 0, so there would be no light</source>
+        <translation>toutes les intensités sont nulles : il n&apos;y aurait pas de lumière</translation>
+    </message>
+    <message>
+        <source>Choose another file.</source>
+        <translation>Choisissez un autre fichier.</translation>
+    </message>
+    <message>
+        <source>is no text file of at most 32 MiB</source>
+        <translation>n&apos;est pas un fichier texte de 32 Mio au plus</translation>
+    </message>
+    <message>
+        <source>Choose an EULUMDAT file (.ldt).</source>
+        <translation>Choisissez un fichier EULUMDAT (.ldt).</translation>
+    </message>
+    <message>
+        <source>the stored solution has another length than the file says</source>
+        <translation>la lumière enregistrée n&apos;a pas la longueur que le fichier indique</translation>
+    </message>
+    <message>
+        <source>the stored solution is damaged</source>
+        <translation>la lumière enregistrée est endommagée</translation>
+    </message>
+    <message>
+        <source>it is damaged</source>
+        <translation>elle est endommagée</translation>
+    </message>
+    <message>
+        <source>it was written by another version of the program</source>
+        <translation>elle a été écrite par une autre version du programme</translation>
+    </message>
+    <message>
+        <source>The light is computed again</source>
+        <translation>La lumière est recalculée</translation>
+    </message>
+    <message>
+        <source>stopped before the first picture</source>
+        <translation>arrêté avant la première image</translation>
+    </message>
+    <message>
+        <source>Give it more time, or choose draft quality</source>
+        <translation>Accordez plus de temps ou choisissez la qualité brouillon</translation>
+    </message>
+    <message>
+        <source>the audit was stopped</source>
+        <translation>la mesure de l&apos;erreur a été arrêtée</translation>
+    </message>
+    <message>
+        <source>Give it more time.</source>
+        <translation>Accordez plus de temps.</translation>
+    </message>
+    <message>
+        <source>there is nothing to compare: light reaches no surface that scatters it</source>
+        <translation>il n&apos;y a rien à comparer : la lumière n&apos;atteint aucune surface qui la diffuse</translation>
+    </message>
+    <message>
+        <source>Add a lamp, daylight or a matt surface.</source>
+        <translation>Ajoutez une lampe, la lumière du jour ou une surface mate.</translation>
+    </message>
+    <message>
+        <source>There is not enough memory for the light of this scene.</source>
+        <translation>Il n&apos;y a pas assez de mémoire pour la lumière de cette scène.</translation>
+    </message>
+    <message>
+        <source>The light simulation failed: %1</source>
+        <translation>La simulation de la lumière a échoué : %1</translation>
+    </message>
+    <message>
+        <source>The light simulation failed for an unknown reason.</source>
+        <translation>La simulation de la lumière a échoué pour une raison inconnue.</translation>
+    </message>
+    <message>
+        <source>The light simulation returned no picture.</source>
+        <translation>La simulation de la lumière n&apos;a rendu aucune image.</translation>
+    </message>
+    <message>
+        <source>there is no light in it, so everything is black</source>
+        <translation>elle ne contient aucune lumière : tout est noir</translation>
+    </message>
+    <message>
+        <source>Add a light, let a material emit, or give the environment a sky</source>
+        <translation>Ajoutez une lumière, rendez un matériau lumineux ou donnez un ciel à l&apos;environnement</translation>
+    </message>
+    <message>
+        <source>its scale is zero, so its camera has no direction</source>
+        <translation>son échelle est nulle : sa caméra n&apos;a pas de direction</translation>
+    </message>
+    <message>
+        <source>Set the scale to 1</source>
+        <translation>Mettez l&apos;échelle à 1</translation>
+    </message>
+    <message>
+        <source>its scale is zero, so it has no volume</source>
+        <translation>son échelle est nulle : il n&apos;a pas de volume</translation>
+    </message>
+    <message>
+        <source>Set the scale to 1 or hide the node</source>
+        <translation>Mettez l&apos;échelle à 1 ou masquez le nœud</translation>
+    </message>
+    <message>
+        <source>it shows nothing: %1</source>
+        <translation>il ne montre rien : %1</translation>
+    </message>
+    <message>
+        <source>Give it a size or delete it</source>
+        <translation>Donnez-lui une taille ou supprimez-le</translation>
+    </message>
+    <message>
+        <source>it names more materials than its shape has parts</source>
+        <translation>il nomme plus de matériaux que sa forme n&apos;a de parties</translation>
+    </message>
+    <message>
+        <source>The surplus is ignored</source>
+        <translation>Le surplus est ignoré</translation>
+    </message>
+    <message>
+        <source>it refers to a texture that does not exist</source>
+        <translation>il renvoie à une texture qui n&apos;existe pas</translation>
+    </message>
+    <message>
+        <source>The plain colour stands in</source>
+        <translation>La couleur unie la remplace</translation>
+    </message>
+    <message>
+        <source>its %1 of %2 is outside %3 to %4</source>
+        <translation>sa valeur %1 de %2 est hors de l&apos;intervalle de %3 à %4</translation>
+    </message>
+    <message>
+        <source>Set it within that range</source>
+        <translation>Choisissez une valeur dans cet intervalle</translation>
+    </message>
+    <message>
+        <source>a colour of it is negative</source>
+        <translation>une de ses couleurs est négative</translation>
+    </message>
+    <message>
+        <source>Negative light and reflectance count as zero</source>
+        <translation>Une lumière ou une réflectance négative compte pour zéro</translation>
+    </message>
+    <message>
+        <source>it reflects %1 % of the light, with which a closed room would grow brighter without end</source>
+        <translation>il réfléchit %1 % de la lumière : une pièce fermée deviendrait toujours plus claire</translation>
+    </message>
+    <message>
+        <source>its intensity or colour is negative</source>
+        <translation>son intensité ou sa couleur est négative</translation>
+    </message>
+    <message>
+        <source>Negative light counts as none</source>
+        <translation>Une lumière négative compte pour nulle</translation>
+    </message>
+    <message>
+        <source>it is switched on but its intensity is zero</source>
+        <translation>elle est allumée mais son intensité est nulle</translation>
+    </message>
+    <message>
+        <source>Set an intensity or switch it off</source>
+        <translation>Donnez-lui une intensité ou éteignez-la</translation>
+    </message>
+    <message>
+        <source>it has a photometric file, which a sun cannot have</source>
+        <translation>elle a un fichier photométrique, ce qu&apos;un soleil ne peut avoir</translation>
+    </message>
+    <message>
+        <source>The file is ignored</source>
+        <translation>Le fichier est ignoré</translation>
+    </message>
+    <message>
+        <source>the inner angle of its cone is not smaller than the outer, or that is over 90 degrees</source>
+        <translation>l&apos;angle intérieur de son cône n&apos;est pas plus petit que l&apos;angle extérieur, ou celui-ci dépasse 90 degrés</translation>
+    </message>
+    <message>
+        <source>Set 0 &lt;= inner &lt; outer &lt;= 90 degrees</source>
+        <translation>Choisissez 0 &lt;= intérieur &lt; extérieur &lt;= 90 degrés</translation>
+    </message>
+    <message>
+        <source>its field of view is not between 0 and 180 degrees</source>
+        <translation>son champ de vision n&apos;est pas compris entre 0 et 180 degrés</translation>
+    </message>
+    <message>
+        <source>40 to 70 degrees suit a room</source>
+        <translation>40 à 70 degrés conviennent à une pièce</translation>
+    </message>
+    <message>
+        <source>it shows a height of zero</source>
+        <translation>elle montre une hauteur nulle</translation>
+    </message>
+    <message>
+        <source>Set its height in metres</source>
+        <translation>Donnez sa hauteur en mètres</translation>
+    </message>
+    <message>
+        <source>its far plane is not behind its near plane</source>
+        <translation>son plan éloigné n&apos;est pas derrière son plan proche</translation>
+    </message>
+    <message>
+        <source>Set 0 &lt; near &lt; far</source>
+        <translation>Choisissez 0 &lt; proche &lt; éloigné</translation>
+    </message>
+    <message>
+        <source>its points lie far from its own origin, where their coordinates have steps of %1 mm</source>
+        <translation>ses points sont loin de sa propre origine, là où leurs coordonnées ont des pas de %1 mm</translation>
+    </message>
+    <message>
+        <source>Export it with its origin nearby and move the object instead</source>
+        <translation>Exportez-le avec une origine proche et déplacez plutôt l&apos;objet</translation>
+    </message>
+    <message>
+        <source>it has no visible surface</source>
+        <translation>elle n&apos;a aucune surface visible</translation>
+    </message>
+    <message>
+        <source>Show a node, or add a shape</source>
+        <translation>Montrez un nœud ou ajoutez une forme</translation>
+    </message>
+    <message>
+        <source>it is smaller than a millimetre</source>
+        <translation>il est plus petit qu&apos;un millimètre</translation>
+    </message>
+    <message>
+        <source>it and %1 more are smaller than a millimetre</source>
+        <translation>lui et %1 autres sont plus petits qu&apos;un millimètre</translation>
+    </message>
+    <message>
+        <source>Such detail costs time and is hardly seen</source>
+        <translation>De tels détails coûtent du temps et se voient à peine</translation>
+    </message>
+    <message>
+        <source>there is no such %1</source>
+        <translation>cet élément (%1) n&apos;existe pas</translation>
+    </message>
+    <message>
+        <source>It may have been deleted</source>
+        <translation>Il a peut-être été supprimé</translation>
+    </message>
+    <message>
+        <source>a size or coordinate is not a finite number</source>
+        <translation>une taille ou une coordonnée n&apos;est pas un nombre fini</translation>
+    </message>
+    <message>
+        <source>a value of the material is not a finite number</source>
+        <translation>une valeur du matériau n&apos;est pas un nombre fini</translation>
+    </message>
+    <message>
+        <source>it emits more than 1e12 cd/m2</source>
+        <translation>il émet plus de 1e12 cd/m2</translation>
+    </message>
+    <message>
+        <source>a value of the light is not a finite number</source>
+        <translation>une valeur de la lumière n&apos;est pas un nombre fini</translation>
+    </message>
+    <message>
+        <source>its intensity is more than 1e12</source>
+        <translation>son intensité dépasse 1e12</translation>
+    </message>
+    <message>
+        <source>Set it in candela, or in lux for a sun.</source>
+        <translation>Donnez-la en candelas, ou en lux pour un soleil.</translation>
+    </message>
+    <message>
+        <source>a value of the camera is not a finite number</source>
+        <translation>une valeur de la caméra n&apos;est pas un nombre fini</translation>
+    </message>
+    <message>
+        <source>its position, rotation or scale is not a finite number</source>
+        <translation>sa position, sa rotation ou son échelle n&apos;est pas un nombre fini</translation>
+    </message>
+    <message>
+        <source>it cannot be moved below %1, which is part of it</source>
+        <translation>il ne peut pas être placé sous %1, qui en fait partie</translation>
+    </message>
+    <message>
+        <source>caustic_textures</source>
+        <translation>textures de caustiques</translation>
+    </message>
+    <message>
+        <source>octree</source>
+        <translation>octree</translation>
+    </message>
+    <message>
+        <source>refraction</source>
+        <translation>réfraction</translation>
+    </message>
+    <message>
+        <source>glossy</source>
+        <translation>reflets diffus</translation>
+    </message>
+    <message>
+        <source>direct_layer</source>
+        <translation>couche directe</translation>
+    </message>
+    <message>
+        <source>specular_view</source>
+        <translation>vue spéculaire</translation>
+    </message>
+    <message>
+        <source>transmittance</source>
+        <translation>transmission</translation>
+    </message>
+    <message>
+        <source>alpha_cutouts</source>
+        <translation>découpes alpha</translation>
+    </message>
+    <message>
+        <source>photometry</source>
+        <translation>photométrie</translation>
+    </message>
+    <message>
+        <source>particles</source>
+        <translation>particules</translation>
+    </message>
+    <message>
+        <source>textures</source>
+        <translation>textures</translation>
+    </message>
+    <message>
+        <source>sun</source>
+        <translation>soleil</translation>
+    </message>
+    <message>
+        <source>sky</source>
+        <translation>ciel</translation>
+    </message>
+    <message>
+        <source>There is no specular surface in the scene.</source>
+        <translation>Il n&apos;y a aucune surface spéculaire dans la scène.</translation>
+    </message>
+    <message>
+        <source>There is no glass in the scene.</source>
+        <translation>Il n&apos;y a pas de verre dans la scène.</translation>
+    </message>
+    <message>
+        <source>All glass is in thin sheets, which light crosses unbent.</source>
+        <translation>Tout le verre est en feuilles minces, que la lumière traverse sans être déviée.</translation>
+    </message>
+    <message>
+        <source>There is no mirror, metal or glass in the scene.</source>
+        <translation>Il n&apos;y a ni miroir, ni métal, ni verre dans la scène.</translation>
+    </message>
+    <message>
+        <source>Every surface is opaque.</source>
+        <translation>Toutes les surfaces sont opaques.</translation>
+    </message>
+    <message>
+        <source>Nothing in the scene gives light.</source>
+        <translation>Rien dans la scène ne donne de lumière.</translation>
+    </message>
+    <message>
+        <source>The sky shines with %1 cd/m2.</source>
+        <translation>Le ciel brille de %1 cd/m2.</translation>
+    </message>
+    <message>
+        <source>The environment is black.</source>
+        <translation>L&apos;environnement est noir.</translation>
+    </message>
+    <message>
+        <source>There is no directional light in the scene.</source>
+        <translation>Il n&apos;y a pas de lumière directionnelle dans la scène.</translation>
+    </message>
+    <message>
+        <source>The directional light %1 shines.</source>
+        <translation>La lumière directionnelle %1 éclaire.</translation>
+    </message>
+    <message>
+        <source>Made where what particles bring has finer detail than the mesh.</source>
+        <translation>Faites là où les particules apportent plus de détail que le maillage.</translation>
+    </message>
+    <message>
+        <source>Nothing is selected to move.</source>
+        <translation>Rien n&apos;est choisi pour être déplacé.</translation>
+    </message>
+    <message>
+        <source>There is no glossy metal in the scene.</source>
+        <translation>Il n&apos;y a pas de métal satiné dans la scène.</translation>
+    </message>
+    <message>
+        <source>No shown surface has a texture that changes light.</source>
+        <translation>Aucune surface visible n&apos;a de texture qui change la lumière.</translation>
+    </message>
+    <message>
+        <source>No surface is cut out by its alpha.</source>
+        <translation>Aucune surface n&apos;est découpée par son alpha.</translation>
+    </message>
+    <message>
+        <source>No lamp has a photometric file.</source>
+        <translation>Aucune lampe n&apos;a de fichier photométrique.</translation>
+    </message>
+    <message>
+        <source>The file is damaged or incomplete; copy or export it again.</source>
+        <translation>Le fichier est endommagé ou incomplet ; copiez-le ou exportez-le à nouveau.</translation>
+    </message>
+    <message>
+        <source>It is damaged or was cut off; get it again from the maker.</source>
+        <translation>Il est endommagé ou tronqué ; redemandez-le au fabricant.</translation>
+    </message>
+    <message>
+        <source>holds %1 bytes where the file announces %2</source>
+        <translation>contient %1 octets là où le fichier en annonce %2</translation>
+    </message>
+    <message>
+        <source>the file is empty</source>
+        <translation>le fichier est vide</translation>
+    </message>
+    <message>
+        <source>is not a glTF file: the JSON text is not an object</source>
+        <translation>n&apos;est pas un fichier glTF : le texte JSON n&apos;est pas un objet</translation>
+    </message>
+    <message>
+        <source>is neither glTF text nor a binary glTF file</source>
+        <translation>n&apos;est ni du texte glTF ni un fichier glTF binaire</translation>
+    </message>
+    <message>
+        <source>Choose a .gltf, .glb or .atrium file.</source>
+        <translation>Choisissez un fichier .gltf, .glb ou .atrium.</translation>
+    </message>
+    <message>
+        <source>the file ends after %1 bytes</source>
+        <translation>le fichier s&apos;arrête après %1 octets</translation>
+    </message>
+    <message>
+        <source>its header is cut off</source>
+        <translation>son en-tête est tronqué</translation>
+    </message>
+    <message>
+        <source>glTF version &quot;%1&quot; is not supported</source>
+        <translation>la version glTF « %1 » n&apos;est pas prise en charge</translation>
+    </message>
+    <message>
+        <source>Export the file as glTF 2.0.</source>
+        <translation>Exportez le fichier en glTF 2.0.</translation>
+    </message>
+    <message>
+        <source>This is not a glTF 2.0 file.</source>
+        <translation>Ce n&apos;est pas un fichier glTF 2.0.</translation>
+    </message>
+    <message>
+        <source>The file is incomplete; export it again.</source>
+        <translation>Le fichier est incomplet ; exportez-le à nouveau.</translation>
+    </message>
+    <message>
+        <source>is missing</source>
+        <translation>est absent</translation>
+    </message>
+    <message>
+        <source>&quot;%1&quot; is missing</source>
+        <translation>« %1 » est absent</translation>
+    </message>
+    <message>
+        <source>refers to something that the file does not have</source>
+        <translation>renvoie à quelque chose que le fichier n&apos;a pas</translation>
+    </message>
+    <message>
+        <source>nothing of the scene&apos;s description can be read</source>
+        <translation>rien de la description de la scène ne peut être lu</translation>
+    </message>
+    <message>
+        <source>the scene is larger than 4 GiB, more than one binary glTF file can hold</source>
+        <translation>la scène dépasse 4 Gio, plus qu&apos;un fichier glTF binaire ne peut contenir</translation>
+    </message>
+    <message>
+        <source>Save as .gltf.</source>
+        <translation>Enregistrez en .gltf.</translation>
     </message>
 </context>
 <context>
@@ -1563,6 +2302,142 @@ subdivision</translation>
     <message>
         <source>One candela, 20 cm high</source>
         <translation>Une candela, 20 cm de haut</translation>
+    </message>
+    <message>
+        <source>Dining table</source>
+        <translation>Table à manger</translation>
+    </message>
+    <message>
+        <source>Oak, 180 cm x 90 cm, for six to eight</source>
+        <translation>Chêne, 180 cm x 90 cm, pour six à huit personnes</translation>
+    </message>
+    <message>
+        <source>Round table</source>
+        <translation>Table ronde</translation>
+    </message>
+    <message>
+        <source>White lacquer, 110 cm across</source>
+        <translation>Laque blanche, 110 cm de diamètre</translation>
+    </message>
+    <message>
+        <source>Coffee table</source>
+        <translation>Table basse</translation>
+    </message>
+    <message>
+        <source>Walnut and steel, 110 cm x 60 cm</source>
+        <translation>Noyer et acier, 110 cm x 60 cm</translation>
+    </message>
+    <message>
+        <source>Desk</source>
+        <translation>Bureau</translation>
+    </message>
+    <message>
+        <source>Oak with a drawer, 140 cm x 70 cm</source>
+        <translation>Chêne, avec un tiroir, 140 cm x 70 cm</translation>
+    </message>
+    <message>
+        <source>Chair</source>
+        <translation>Chaise</translation>
+    </message>
+    <message>
+        <source>Oak, seat 46 cm high</source>
+        <translation>Chêne, assise à 46 cm</translation>
+    </message>
+    <message>
+        <source>Bar stool</source>
+        <translation>Tabouret de bar</translation>
+    </message>
+    <message>
+        <source>Walnut and steel, 66 cm high</source>
+        <translation>Noyer et acier, 66 cm de haut</translation>
+    </message>
+    <message>
+        <source>Bench</source>
+        <translation>Banc</translation>
+    </message>
+    <message>
+        <source>Oak and steel, 140 cm long</source>
+        <translation>Chêne et acier, 140 cm de long</translation>
+    </message>
+    <message>
+        <source>Armchair</source>
+        <translation>Fauteuil</translation>
+    </message>
+    <message>
+        <source>Ochre wool, 74 cm wide</source>
+        <translation>Laine ocre, 74 cm de large</translation>
+    </message>
+    <message>
+        <source>Sofa</source>
+        <translation>Canapé</translation>
+    </message>
+    <message>
+        <source>Grey wool, 210 cm wide, for three</source>
+        <translation>Laine grise, 210 cm de large, trois places</translation>
+    </message>
+    <message>
+        <source>Double bed</source>
+        <translation>Lit double</translation>
+    </message>
+    <message>
+        <source>Oak, mattress 160 cm x 200 cm</source>
+        <translation>Chêne, matelas 160 cm x 200 cm</translation>
+    </message>
+    <message>
+        <source>Bedside table</source>
+        <translation>Table de chevet</translation>
+    </message>
+    <message>
+        <source>White lacquer, 45 cm wide</source>
+        <translation>Laque blanche, 45 cm de large</translation>
+    </message>
+    <message>
+        <source>Bookcase</source>
+        <translation>Bibliothèque</translation>
+    </message>
+    <message>
+        <source>Oak, 90 cm wide, 190 cm high, with books</source>
+        <translation>Chêne, 90 cm de large, 190 cm de haut, avec des livres</translation>
+    </message>
+    <message>
+        <source>Sideboard</source>
+        <translation>Buffet</translation>
+    </message>
+    <message>
+        <source>Walnut, 160 cm wide</source>
+        <translation>Noyer, 160 cm de large</translation>
+    </message>
+    <message>
+        <source>Wardrobe</source>
+        <translation>Armoire</translation>
+    </message>
+    <message>
+        <source>White lacquer, 120 cm wide, 208 cm high</source>
+        <translation>Laque blanche, 120 cm de large, 208 cm de haut</translation>
+    </message>
+    <message>
+        <source>Potted plant</source>
+        <translation>Plante en pot</translation>
+    </message>
+    <message>
+        <source>One metre high, in a clay pot</source>
+        <translation>Un mètre de haut, en pot de terre cuite</translation>
+    </message>
+    <message>
+        <source>Bowl</source>
+        <translation>Bol</translation>
+    </message>
+    <message>
+        <source>Porcelain, 28 cm across</source>
+        <translation>Porcelaine, 28 cm de diamètre</translation>
+    </message>
+    <message>
+        <source>Glass vase</source>
+        <translation>Vase en verre</translation>
+    </message>
+    <message>
+        <source>Solid clear glass, 26 cm high: throws caustics</source>
+        <translation>Verre clair massif, 26 cm de haut : projette des caustiques</translation>
     </message>
 </context>
 <context>
@@ -3014,6 +3889,10 @@ Vérifiez que le nom du fichier est correct.</translation>
         <source>What is discarded can be had back for two weeks: File &gt; Recovered Work.</source>
         <translation>Ce qui n&apos;est pas enregistré peut être repris pendant deux semaines&#xa0;: Fichier &gt; Travail récupéré.</translation>
     </message>
+    <message>
+        <source>the stored light could not be used: %1</source>
+        <translation>la lumière enregistrée n&apos;a pas pu être utilisée : %1</translation>
+    </message>
 </context>
 <context>
     <name>atrium::ui::ImportBar</name>
@@ -3259,6 +4138,10 @@ Vérifiez que le nom du fichier est correct.</translation>
     <message>
         <source>Measuring the error</source>
         <translation>Mesure de l&apos;erreur</translation>
+    </message>
+    <message>
+        <source>Getting ready to follow edits: %1</source>
+        <translation>Se prépare à suivre les modifications : %1</translation>
     </message>
 </context>
 <context>
@@ -3633,6 +4516,10 @@ Vérifiez que le nom du fichier est correct.</translation>
         <source>O&amp;verlays</source>
         <translation>&amp;Superpositions</translation>
     </message>
+    <message>
+        <source>Own axes</source>
+        <translation>Axes propres</translation>
+    </message>
 </context>
 <context>
     <name>atrium::ui::MaterialSection</name>
@@ -3983,6 +4870,22 @@ Vérifiez que le nom du fichier est correct.</translation>
     <message>
         <source>Another language shows when Atrium is started again.</source>
         <translation>Une autre langue s&apos;affiche au prochain démarrage d&apos;Atrium.</translation>
+    </message>
+    <message>
+        <source>As the system</source>
+        <translation>Comme le système</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Clair</translation>
+    </message>
+    <message>
+        <source>Dark</source>
+        <translation>Sombre</translation>
+    </message>
+    <message>
+        <source>&amp;Colours:</source>
+        <translation>&amp;Couleurs :</translation>
     </message>
 </context>
 <context>

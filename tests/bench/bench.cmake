@@ -43,6 +43,8 @@ target_link_libraries(relight_bench PRIVATE atrium_engine CLI11::CLI11)
 
 add_executable(edit_sequence_bench ${CMAKE_CURRENT_LIST_DIR}/edit_sequence_bench.cpp)
 target_link_libraries(edit_sequence_bench PRIVATE atrium_engine CLI11::CLI11)
+add_executable(project_bench ${CMAKE_CURRENT_LIST_DIR}/project_bench.cpp)
+target_link_libraries(project_bench PRIVATE atrium_engine CLI11::CLI11)
 add_executable(stills_bench ${CMAKE_CURRENT_LIST_DIR}/stills_bench.cpp)
 target_link_libraries(stills_bench PRIVATE atrium_engine CLI11::CLI11)
 target_compile_definitions(stills_bench PRIVATE ATRIUM_SOURCE_DIR="${CMAKE_SOURCE_DIR}")

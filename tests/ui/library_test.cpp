@@ -1,5 +1,7 @@
 // The library and what it does in the window, by mouse, keys and drops.
 #include "engine/io/scene_file.h"
+#include "engine/layers/surface_layer.h"
+#include "engine/scene/problems.h"
 #include "ui/document/insert_commands.h"
 #include "ui/document/scene_mime.h"
 #include "ui/panels/library_model.h"
@@ -61,7 +63,8 @@ TEST(Library, HasEverySectionAndLampsSendOutWhatTheirNamesSay) {
     std::array<int, 4> count{};
     for (const LibraryItem& item : shipped_library()) {
         ++count[std::size_t(item.section)];
-        ASSERT_TRUE(item.scene) << item.key.toStdString();
+        EXPECT_TRUE(item.ships());
+        ASSERT_EQ(bool(item.scene), item.section != LibrarySection::Furniture) << item.key.toStdString();
         if (item.section == LibrarySection::Lamps) {
             const QString lumens = item.name.section(QStringLiteral(" lm"), 0, 0).section(QLatin1Char(' '), -1);
             EXPECT_NEAR(flux(*item.scene), lumens.toDouble(), 0.04 * lumens.toDouble()) << item.name.toStdString();
@@ -70,6 +73,41 @@ TEST(Library, HasEverySectionAndLampsSendOutWhatTheirNamesSay) {
     EXPECT_GE(count[std::size_t(LibrarySection::Materials)], 25);
     EXPECT_GE(count[std::size_t(LibrarySection::Lamps)], 8);
     EXPECT_GE(count[std::size_t(LibrarySection::Shapes)], 6);
+    EXPECT_GE(count[std::size_t(LibrarySection::Furniture)], 12);
+}
+
+TEST(Library, FurnitureThatShipsStandsOnItsFeetAndIsMadeOfLikelyMaterials) {
+    for (const LibraryItem& item : shipped_library()) {
+        if (item.section != LibrarySection::Furniture) {
+            continue;
+        }
+        const auto scene = read_shipped_furniture(item);
+        ASSERT_TRUE(scene) << scene.error().message();
+        ASSERT_EQ(scene->roots.size(), 1U) << "one click takes all of it";
+        EXPECT_EQ(scene->nodes.find(scene->roots[0])->name, item.name.toStdString());
+        const DBox3 box = scene->bounds();
+        EXPECT_NEAR(box.min.y, 0.0, 0.005) << item.name.toStdString();
+        EXPECT_GT(glm::length(box.size()), 0.1) << item.name.toStdString();
+        EXPECT_LT(glm::length(box.size()), 3.0) << item.name.toStdString();
+        EXPECT_LT(std::abs(box.centre().x) + std::abs(box.centre().z), 0.35) << item.name.toStdString();
+        EXPECT_TRUE(find_problems(*scene).size() <= 1) << "but that it has no light";
+        scene->materials.for_each([&](MaterialId, const Material& m) {
+            EXPECT_LE(m.transmission > 0 ? 0.0F : luminance(m.base_color), 0.82F) << m.name;
+            EXPECT_FALSE(m.emits()) << m.name;
+        });
+        const Shape* shape = scene->shapes.find(scene->nodes.find(scene->roots[0])->shape);
+        ASSERT_NE(shape, nullptr);
+        for (std::size_t part = 0; part < part_count(*shape); ++part) {
+            const DisplayMesh mesh = make_display_mesh(*shape, part);
+            int inside_out = 0;
+            for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+                const vec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]],
+                           c = mesh.positions[mesh.indices[i + 2]];
+                inside_out += glm::dot(glm::cross(b - a, c - a), mesh.normals[mesh.indices[i]]) < 0.0F ? 1 : 0;
+            }
+            EXPECT_EQ(inside_out, 0) << item.name.toStdString() << " part " << part;
+        }
+    }
 }
 
 TEST(Library, PaintsReflectTheirLightReflectanceValue) {
@@ -241,6 +279,27 @@ TEST_F(LibraryWindowTest, KeysReachAndPlaceEntries) {
     QTest::keyClick(search, Qt::Key_Down);
     QTest::keyClick(window->library().view(), Qt::Key_Return);
     EXPECT_EQ(scene().material_of(node(bowl), 0)->name, "Walnut, LRV 12");
+}
+
+TEST_F(LibraryWindowTest, FurnitureIsThereAtTheFirstStart) {
+    open_sample();
+    trigger(ActionId::Library);
+    window->library().show_section(LibrarySection::Furniture);
+    QListView* view = window->library().view();
+    ASSERT_GE(view->model()->rowCount(), 12);
+    const QModelIndex chair = window->library().view_index(QStringLiteral(":/library/furniture/chair.glb"));
+    ASSERT_TRUE(chair.isValid());
+    EXPECT_EQ(chair.data().toString(), QStringLiteral("Chair"));
+    view->setFocus();
+    view->setCurrentIndex(chair);
+    QTest::keyClick(view, Qt::Key_Return); // waits for its file where that has not been read yet
+    ASSERT_TRUE(QTest::qWaitFor([&] { return entries() == 1; }, 10000));
+    const NodeId id = window->document().selection()->active();
+    EXPECT_EQ(node(id).name, "Chair");
+    EXPECT_NEAR(scene().subtree_bounds(id).size().y, 0.82, 0.02);
+    window->library().set_folder(folder.path()); // one's own models come beside it
+    EXPECT_TRUE(window->library().view_index(QStringLiteral(":/library/furniture/chair.glb")).isValid());
+    window->library().set_folder({});
 }
 
 TEST_F(LibraryWindowTest, AFolderOfModelsBecomesFurniture) {

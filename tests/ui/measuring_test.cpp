@@ -117,8 +117,14 @@ TEST_F(Measuring, APointSaysWhatTheSolutionHoldsThereAndWhatCameWhichWay) {
     const double truth = double(luminance(stated.irradiance));
     EXPECT_GT(truth, 1.0);
     EXPECT_NEAR(reading.light.illuminance, truth, 1e-4 * truth);
-    EXPECT_NEAR(reading.light.standard_error, stated.standard_error, 1e-4 * stated.standard_error);
+    // The error is that of the places like this one: in the open less than that of the scene.
+    const auto error = window->engine().local_error();
+    ASSERT_TRUE(error);
+    EXPECT_GT(error->size(), 100U);
+    const double here = truth * error->at(reading.point, reading.normal, truth);
+    EXPECT_NEAR(reading.light.standard_error, here, 1e-3 * here);
     EXPECT_GT(reading.light.standard_error, 0.0);
+    EXPECT_NE(reading.light.standard_error, stated.standard_error);
     EXPECT_NEAR(reading.light.direct + reading.light.diffuse + reading.light.caustic, truth, 1e-4 * truth);
     const QStringList lines = reading_lines(reading.light);
     ASSERT_EQ(lines.size(), 3);
@@ -208,7 +214,7 @@ TEST_F(Measuring, AgreesWithTheCommandLineAtTheSamePoint) {
         const LightReading& light = measured.points()[i].reading->light;
         const QList<QByteArray> cells = rows[qsizetype(i) + 1].split(',');
         EXPECT_NEAR(cells[9].toDouble(), light.illuminance, 1e-4 * light.illuminance) << i;
-        EXPECT_NEAR(cells[10].toDouble(), light.standard_error, 1e-4 * light.standard_error) << i;
+        EXPECT_GT(cells[10].toDouble(), 0.0) << i; // of the whole scene; the window's is of that place once it is known
     }
 }
 

@@ -5,11 +5,13 @@
 #include <QEvent>
 #include <QMetaEnum>
 #include <QOpenGLWidget>
+#include <QThread>
 
 #include <algorithm>
 #include <ctime>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace atrium::ui {
@@ -20,12 +22,29 @@ class TimedApplication : public QApplication {
 public:
     using QApplication::QApplication;
     bool notify(QObject* receiver, QEvent* event) override {
-        const bool top = depth_ == 0;
+        // Objects of other threads have their events through here, too, on those threads: all below is the UI thread's.
+        if (QThread::currentThread() != thread()) {
+            return QApplication::notify(receiver, event);
+        }
+        // Within a drag or a dialog another loop turns inside an event: what it handles is counted by itself.
+        const int level = thread()->loopLevel();
+        const bool top = depth_ == 0 || level > level_;
+        const int outer_level = level_;
+        const double outer_inner = inner_;
+        const bool outer_news = top_is_news_;
+        if (top) {
+            level_ = level;
+            inner_ = 0.0;
+        }
         const QEvent::Type type = event->type();
-        const std::string name = receiver->metaObject()->className();
+        const bool link = std::string_view(receiver->metaObject()->className()) == "atrium::ui::EngineLink";
+        std::string name = receiver->metaObject()->className();
+        if (const QString own = receiver->objectName(); !own.isEmpty()) {
+            name += ' ' + own.toStdString();
+        }
         const bool painting = type == QEvent::Paint || type == QEvent::UpdateRequest || type == QEvent::Expose;
         if (top) {
-            top_is_news_ = type == QEvent::MetaCall && name == "atrium::ui::EngineLink";
+            top_is_news_ = type == QEvent::MetaCall && link;
         } else if (type == QEvent::Paint && top_is_news_) {
             ++paints_on_news_;
         }
@@ -33,8 +52,14 @@ public:
         ++depth_;
         const bool done = QApplication::notify(receiver, event);
         --depth_;
+        const double all = processor_ms() - before;
+        const double ms = all - inner_;
+        if (top) {
+            level_ = outer_level;
+            inner_ = outer_inner + all;
+            top_is_news_ = depth_ > 0 ? outer_news : top_is_news_;
+        }
         if (top && on_) {
-            const double ms = processor_ms() - before;
             auto& worst =
                 worst_[(painting ? "painting " : "") + name + " " + QMetaEnum::fromType<QEvent::Type>().valueToKey(type)];
             worst = std::max(worst, ms);
@@ -80,6 +105,8 @@ private:
         return double(now.tv_sec) * 1e3 + double(now.tv_nsec) * 1e-6;
     }
     int depth_ = 0;
+    int level_ = 0;      ///< of the loop that the outermost timed event came from
+    double inner_ = 0.0; ///< milliseconds of events of inner loops within the present one
     bool on_ = false;
     bool top_is_news_ = false;
     int paints_on_news_ = 0;

@@ -69,10 +69,33 @@ TEST_F(WindowTest, PreferencesAreKept) {
     EXPECT_EQ(autosave->currentData().toInt(), 30);
     language->setCurrentIndex(language->findData(QStringLiteral("fr")));
     autosave->setCurrentIndex(autosave->findData(60));
+    auto* colours = preferences->findChild<QComboBox*>(QStringLiteral("appearance"));
+    ASSERT_NE(colours, nullptr);
+    colours->setCurrentIndex(colours->findData(QStringLiteral("dark")));
+    const auto icon_of_open = [this] {
+        const QImage picture = window->action(ActionId::Open)->icon().pixmap(24, 24).toImage();
+        int brightest = 0;
+        for (int y = 0; y < picture.height(); ++y) {
+            for (int x = 0; x < picture.width(); ++x) {
+                brightest = qAlpha(picture.pixel(x, y)) > 128 ? std::max(brightest, qGray(picture.pixel(x, y))) : brightest;
+            }
+        }
+        return brightest;
+    };
+    const int light_window = window->palette().color(QPalette::Window).lightness();
     QTest::mouseClick(preferences->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok), Qt::LeftButton);
     settle();
     EXPECT_EQ(Settings().language(), QStringLiteral("fr"));
     EXPECT_EQ(Settings().autosave_seconds(), 60);
+    EXPECT_EQ(Settings().appearance(), Appearance::Dark);
+    EXPECT_LT(window->palette().color(QPalette::Window).lightness(), 80) << "at once";
+    EXPECT_GT(light_window, 160);
+    EXPECT_GT(icon_of_open(), 160) << "icons are seen on the dark";
+    apply_appearance(Appearance::Light);
+    settle();
+    EXPECT_GT(window->palette().color(QPalette::Window).lightness(), 160);
+    EXPECT_LT(icon_of_open(), 100);
+    Settings().set_appearance(Appearance::System);
     Settings().set_language({});
     Settings().set_autosave_seconds(30);
 }

@@ -399,7 +399,7 @@ TEST_F(Session, TheErrorFollowsThePicture) {
         [this](const Scene& s, const SolveOptions& o, const RunContext& c, const auto& snapshot) {
             return solver.solve(s, o, c, snapshot);
         },
-        [&](const Scene&, std::shared_ptr<const Solution> light, const SolveOptions&, const RunContext& context) {
+        [&](const Scene&, std::shared_ptr<const Solution> light, const SolveOptions&, const RunContext& context) -> Audited {
             ++audits;
             while (!let_finish && !context.should_stop()) {
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -409,21 +409,43 @@ TEST_F(Session, TheErrorFollowsThePicture) {
             }
             auto out = std::make_shared<Solution>(*light);
             out->statistics.audit.points = 7;
-            return std::shared_ptr<const Solution>(out);
+            return Audited(out, {AuditPlace{}, AuditPlace{}});
         });
     session->load(scene, 1, nullptr);
     solver.order(Order::Finish);
     wait_for([&](const SessionStatus&) { return audits == 1; }, "an audit");
     EXPECT_EQ(wait_for(State::Idle).shown_revision, 1U) << "complete while its error is measured";
     EXPECT_EQ(session->latest()->statistics.audit.points, 0U);
+    EXPECT_FALSE(session->shown().error);
     session->post(move(1), 2, false);
     solver.order(Order::Finish);
     let_finish = true; // of the second; the first was stopped
     wait_for([&](const SessionStatus&) { return session->latest()->statistics.audit.points == 7; }, "the number");
     EXPECT_EQ(audits, 2);
+    ASSERT_TRUE(session->shown().error);
+    EXPECT_EQ(session->shown().error->size(), 2U);
+    EXPECT_EQ(session->shown().solution, session->latest());
     EXPECT_EQ(session->latest()->revision, 2U);
     EXPECT_EQ(solver.calls(), 2U);
     session.reset(); // before what its audit refers to
+}
+
+// A saved project: its light is there at once, and what follows edits of it is made unseen.
+TEST_F(Session, StoredLightIsPreparedWithoutAFirstPicture) {
+    const auto stored = picture(1, true);
+    session->load(scene, 1, stored);
+    session->prepare();
+    const FakeSolver::Call call = solver.call(1);
+    EXPECT_EQ(call.revision, 1U);
+    EXPECT_TRUE(call.skip_first_picture);
+    const SessionStatus now = wait_for([](const SessionStatus& s) { return s.preparing; }, "preparing");
+    EXPECT_EQ(now.shown_revision, now.posted_revision);
+    EXPECT_EQ(session->latest(), stored);
+    solver.order(Order::Finish);
+    wait_for(State::Idle);
+    EXPECT_FALSE(session->status().preparing);
+    EXPECT_TRUE(session->latest()->final);
+    EXPECT_EQ(solver.calls(), 1U);
 }
 
 TEST_F(Session, MayBeDestroyedUnused) { session.reset(); }

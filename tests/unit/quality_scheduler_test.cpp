@@ -49,6 +49,65 @@ TEST_F(Scheduler, ADocumentIsSolvedOnce) {
     EXPECT_EQ(s.state(), State::Idle);
 }
 
+// Light that came from a file: the engine gets what it needs to follow edits, and nobody waits for that.
+TEST_F(Scheduler, StoredLightIsPreparedUnlessSomethingElseIsWanted) {
+    using Kind = QualityScheduler::Kind;
+    s.on_prepare();
+    EXPECT_FALSE(s.preparing()) << "nothing is there to be prepared";
+    s.on_load(true, true);
+    EXPECT_EQ(wants(), "-");
+    s.on_prepare();
+    EXPECT_EQ(wants(), "start");
+    EXPECT_EQ(s.kind(), Kind::Full);
+    EXPECT_EQ(started(), "-");
+    EXPECT_TRUE(s.preparing());
+    s.on_finished(Outcome::Final, true);
+    EXPECT_EQ(wants(), "-");
+    EXPECT_FALSE(s.preparing());
+    EXPECT_EQ(s.state(), State::Idle);
+    edit(true);
+    EXPECT_EQ(s.kind(), Kind::Hurried) << "the first drag is followed";
+}
+
+TEST_F(Scheduler, PreparingEndsAtOnceAndLeavesCompleteLight) {
+    s.on_load(true, true);
+    s.on_prepare();
+    started();
+    s.on_cancel();
+    EXPECT_EQ(wants(), "stop");
+    EXPECT_EQ(finished(Outcome::Stopped), "-");
+    EXPECT_EQ(s.state(), State::Idle) << "the light is complete all the same";
+    // That it fails is no failure of the light either.
+    s.on_prepare();
+    started();
+    EXPECT_EQ(finished(Outcome::Failed), "-");
+    EXPECT_EQ(s.state(), State::Idle);
+    // An edit has its own solve.
+    s.on_prepare();
+    started();
+    EXPECT_EQ(edit(), "stop");
+    EXPECT_EQ(finished(Outcome::Stopped), "start");
+    EXPECT_FALSE(s.preparing());
+    started();
+    EXPECT_FALSE(s.preparing());
+    EXPECT_EQ(finished(Outcome::Final), "-");
+    s.on_load(true, true);
+    s.on_prepare();
+    EXPECT_EQ(edit(), "start");
+    started();
+    EXPECT_FALSE(s.preparing()) << "not begun yet: the edit's solve does it";
+}
+
+TEST_F(Scheduler, ADragThatBeginsWhilePreparingIsFollowedOnceItIsDone) {
+    s.on_load(true, true);
+    s.on_prepare();
+    started();
+    EXPECT_EQ(edit(true), "-") << "it goes on: there is light to see, and a start for updates";
+    s.on_finished(Outcome::Final, true);
+    EXPECT_EQ(wants(), "start");
+    EXPECT_EQ(s.kind(), QualityScheduler::Kind::Hurried);
+}
+
 // The number beside complete light: nobody waits for it, and any edit of light comes before it.
 TEST_F(Scheduler, TheErrorIsMeasuredOnceLightIsComplete) {
     using Kind = QualityScheduler::Kind;

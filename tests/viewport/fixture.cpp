@@ -78,12 +78,24 @@ QImage ViewportFixture::grab() {
         .scaled(view_->size(), Qt::IgnoreAspectRatio, Qt::FastTransformation);
 }
 
-QPoint ViewportFixture::at(const dvec3& world) const {
+QImage ViewportFixture::grab_pixels() {
+    settle();
+    return view_->grabFramebuffer().convertToFormat(QImage::Format_RGB32);
+}
+
+QPointF ViewportFixture::place_of(const dvec3& world) const {
     const ViewCamera camera = view_->camera();
     const dvec4 p = glm::inverse(camera.to_world) * dvec4(world, 1.0);
     const double scale = 0.5 * view_->height() / (std::tan(0.5 * double(camera.lens.yfov)) * -p.z);
-    return QPoint(int(std::lround(0.5 * view_->width() + p.x * scale)),
-                  int(std::lround(0.5 * view_->height() - p.y * scale)));
+    return {0.5 * view_->width() + p.x * scale, 0.5 * view_->height() - p.y * scale};
+}
+
+QPoint ViewportFixture::at(const dvec3& world) const { return place_of(world).toPoint(); }
+
+QPoint ViewportFixture::pixel_at(const dvec3& world) const {
+    // Pixel i covers i to i + 1.
+    const QPointF place = place_of(world) * view_->devicePixelRatioF();
+    return {int(std::floor(place.x())), int(std::floor(place.y()))};
 }
 
 void ViewportFixture::drag(const QPoint& from, const QPoint& to, Qt::KeyboardModifiers modifiers, bool release) {

@@ -21,8 +21,12 @@ protected:
     void open(Scene scene, std::shared_ptr<Solution> solution, const dvec3& eye, const dvec3& target);
     void look(const dvec3& eye, const dvec3& target);
     [[nodiscard]] QImage grab();
+    /// The view in the screen's own pixels, none left out.
+    QImage grab_pixels();
     /// Screen point of a world point, by the camera that the widget reports.
     [[nodiscard]] QPoint at(const dvec3& world) const;
+    [[nodiscard]] QPoint pixel_at(const dvec3& world) const;  ///< of grab_pixels()
+    [[nodiscard]] QPointF place_of(const dvec3& world) const; ///< logical pixels, not rounded
     void drag(const QPoint& from, const QPoint& to, Qt::KeyboardModifiers modifiers = Qt::NoModifier, bool release = true);
     void settle(); ///< lets queued events run
 

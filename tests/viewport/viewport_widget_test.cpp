@@ -371,6 +371,32 @@ TEST_F(Tools, DraggingTheXArrowMovesAlongXAsOneUndoEntry) {
     EXPECT_EQ(local(), start);
 }
 
+TEST_F(Tools, HandlesStandAlongTheWorldOrTheObjectsOwnAxes) {
+    view_->set_tool(ToolKind::Move);
+    Snapping own = view_->snapping();
+    own.own_axes = true;
+    // The group turns by 90 degrees, the box in it by 30 more.
+    Transform turned = local();
+    turned.rotation = glm::angleAxis(kPiD / 6, dvec3(0, 1, 0));
+    ASSERT_TRUE(document_->apply({SetTransform{box_, turned}}, QStringLiteral("Turn")));
+    const dvec3 x(glm::normalize(document_->scene().world_matrix(box_)[0]));
+    const dvec3 from = place();
+    view_->set_snapping(own);
+    settle();
+    const QPoint grab_point = handle(x * 0.7);
+    drag(grab_point, grab_point + QPoint(30, -10), Qt::NoModifier, false);
+    type_and_confirm("0.5");
+    EXPECT_LT(glm::length(place() - (from + 0.5 * x)), 1e-9) << "along its own x";
+    own.own_axes = false;
+    view_->set_snapping(own);
+    settle();
+    const dvec3 before = place();
+    const QPoint again = handle(dvec3(0.7, 0, 0));
+    drag(again, again + QPoint(30, 0), Qt::NoModifier, false);
+    type_and_confirm("0.25");
+    EXPECT_LT(glm::length(place() - (before + dvec3(0.25, 0, 0))), 1e-9) << "along the world's";
+}
+
 TEST_F(Tools, EscapeInTheMiddleOfADragRestores) {
     view_->set_tool(ToolKind::Move);
     const Transform start = local();
@@ -457,6 +483,57 @@ TEST_F(Tools, DraggingTheBodySlidesItOnTheFloor) {
     EXPECT_NEAR(place().y, from.y, 1e-9);
     EXPECT_NEAR(place().x - from.x, 0.4, 0.03);
     EXPECT_NEAR(place().z - from.z, -0.5, 0.03);
+    EXPECT_EQ(document_->undo_stack()->count(), 1);
+}
+
+TEST_F(Tools, TheSelectToolMovesWhatIsSelected) {
+    ASSERT_EQ(view_->tool(), ToolKind::Select);
+    const Transform start = local();
+    const dvec3 from = place();
+    const QPoint on_box = at({0.1, 0.8, 0.1});
+    const QPoint to = at({0.5, 0.8, -0.4});
+    QMouseEvent over(QEvent::MouseMove, QPointF(on_box), view_->mapToGlobal(QPointF(on_box)), Qt::NoButton, Qt::NoButton,
+                     Qt::NoModifier);
+    QApplication::sendEvent(view_.get(), &over);
+    settle();
+    EXPECT_EQ(view_->cursor().shape(), Qt::SizeAllCursor) << "it says what a drag from there does";
+    // A hand that shakes while it clicks moves nothing.
+    drag(on_box, on_box + QPoint(2, 2));
+    EXPECT_EQ(local(), start);
+    EXPECT_EQ(document_->undo_stack()->count(), 0);
+    drag(on_box, to, Qt::NoModifier, false);
+    EXPECT_NE(local(), start);
+    QTest::keyClick(view_.get(), Qt::Key_Escape);
+    EXPECT_EQ(local(), start);
+    QTest::mouseRelease(view_.get(), Qt::LeftButton, Qt::NoModifier, to);
+    EXPECT_EQ(document_->undo_stack()->count(), 0);
+    drag(on_box, to);
+    EXPECT_NEAR(place().y, from.y, 1e-9);
+    EXPECT_NEAR(place().x - from.x, 0.4, 0.03);
+    EXPECT_NEAR(place().z - from.z, -0.5, 0.03);
+    EXPECT_EQ(document_->selection()->nodes(), std::vector<NodeId>{box_});
+    EXPECT_EQ(document_->undo_stack()->count(), 1);
+    document_->undo_stack()->undo();
+    EXPECT_EQ(local(), start);
+}
+
+TEST_F(Tools, TheSelectToolSpansABoxFromWhereNothingIsSelected) {
+    look({0, 8.0, 3.0}, {0, 0, 0}); // from above, through the ceiling
+    const Scene before = document_->scene();
+    document_->selection()->clear();
+    drag(at({0.1, 0.8, 0.1}), at({0.6, 0.8, 0.5})); // begins on the box, which is not selected
+    EXPECT_TRUE(document_->scene() == before);
+    drag(at({-0.8, 0.8, -0.8}), at({0.9, 0.0, 0.9}));
+    EXPECT_EQ(document_->selection()->nodes(), std::vector<NodeId>{box_});
+    drag(at({0.1, 0.8, 0.1}), at({0.6, 0.8, 0.5}), Qt::ShiftModifier); // extends a selection
+    EXPECT_TRUE(document_->scene() == before);
+    // Locked things stay: the same drag is a box again.
+    Node locked = *document_->scene().nodes.find(box_);
+    locked.locked = true;
+    ASSERT_TRUE(document_->apply({SetNode{box_, locked}}, QStringLiteral("Lock")));
+    const Transform start = local();
+    drag(at({0.1, 0.8, 0.1}), at({0.6, 0.8, 0.5}));
+    EXPECT_EQ(local(), start);
     EXPECT_EQ(document_->undo_stack()->count(), 1);
 }
 

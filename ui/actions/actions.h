@@ -61,6 +61,7 @@ enum class ActionId : std::uint8_t {
     Snap,
     SlideOnSurfaces,
     TurnToSurface,
+    OwnAxes,
     DropToSurface,
     ToolMeasure,
     CopyPoints,

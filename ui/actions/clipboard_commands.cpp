@@ -1,6 +1,7 @@
 // The part of EditController that goes over the clipboard.
 #include "ui/actions/edit_controller.h"
 #include "ui/document/background.h"
+#include "ui/document/engine_text.h"
 #include "ui/document/insert_commands.h"
 #include "ui/document/scene_mime.h"
 
@@ -76,7 +77,7 @@ void EditController::from_clipboard(bool material, std::function<void(const Scen
         this, [bytes = data->data(SceneMime::type_of(kind))] { return scene_from_bytes(bytes); },
         [this, use = std::move(use)](const Result<Scene>& read) {
             if (!read) {
-                Q_EMIT message(QString::fromStdString(read.error().message()));
+                Q_EMIT message(error_message(read.error()));
             } else if (!document_.in_gesture()) {
                 use(*read);
             }

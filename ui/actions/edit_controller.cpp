@@ -1,6 +1,7 @@
 #include "ui/actions/edit_controller.h"
 
 #include "engine/scene/daylight.h"
+#include "ui/document/engine_text.h"
 
 namespace atrium::ui {
 
@@ -30,7 +31,7 @@ EditController::EditController(Document& document, QObject* parent) : QObject(pa
 bool EditController::apply(const SceneEdit& edit, const QString& text) {
     const auto done = document_.apply(edit, text);
     if (!done) {
-        Q_EMIT message(QString::fromStdString(done.error().message()));
+        Q_EMIT message(error_message(done.error()));
     }
     return bool(done);
 }

@@ -14,6 +14,7 @@ EngineLink::EngineLink(Document& document, QObject* parent) : QObject(parent), d
         }
     });
     connect(&document_, &Document::reset_done, this, [this] {
+        error_.reset();
         shown_.reset(); // its ids belong to another document
         load_pending_ = true;
         Q_EMIT solution_changed();
@@ -42,10 +43,18 @@ bool EngineLink::stale() const {
 void EngineLink::load(std::shared_ptr<const Solution> stored) {
     load_pending_ = false;
     shown_ = stored;
+    error_.reset();
     session_->load(document_.scene(), document_.revision(), std::move(stored));
     Q_EMIT solution_changed();
     Q_EMIT status_changed();
 }
+
+void EngineLink::prepare() {
+    session_->prepare();
+    Q_EMIT status_changed();
+}
+
+std::shared_ptr<const LocalError> EngineLink::local_error() const { return error_; }
 
 void EngineLink::cancel() { session_->cancel(); }
 
@@ -72,12 +81,13 @@ void EngineLink::on_edited(const SceneEdit& edit) {
 
 void EngineLink::on_wake() {
     wake_queued_ = false; // before reading: news that arrives from here on queues the next event
-    std::shared_ptr<const Solution> newest = session_->latest();
+    EngineSession::Shown newest = session_->shown();
     if (load_pending_) {
         return; // still about the document before
     }
-    if (newest != shown_) {
-        shown_ = std::move(newest);
+    if (newest.solution != shown_) {
+        shown_ = std::move(newest.solution);
+        error_ = std::move(newest.error);
         Q_EMIT solution_changed();
     }
     Q_EMIT status_changed();

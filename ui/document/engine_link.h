@@ -22,6 +22,10 @@ public:
     [[nodiscard]] SessionStatus status() const;
     [[nodiscard]] bool stale() const;                  ///< the picture is older than the document's light
     void load(std::shared_ptr<const Solution> stored); ///< after Document::reset
+    /// What follows edits of stored light is made in the background (EngineSession::prepare()); after load().
+    void prepare();
+    /// How far off solution() is likely to be at a place; null where that is not known (yet).
+    [[nodiscard]] std::shared_ptr<const LocalError> local_error() const;
     void cancel();
     void resume();
     void keep_landings(bool on); ///< solutions tell where particles landed; off at first
@@ -38,6 +42,7 @@ private:
     bool load_pending_ = true; ///< the document was replaced and the session does not have it yet
     std::atomic<bool> wake_queued_{false};
     std::shared_ptr<const Solution> shown_;
+    std::shared_ptr<const LocalError> error_; ///< of shown_
     std::unique_ptr<EngineSession> session_;
 };
 

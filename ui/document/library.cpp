@@ -259,8 +259,10 @@ Result<std::vector<LibraryItem>> parse_library(const QByteArray& json) {
     }
     std::vector<LibraryItem> out;
     std::map<QString, Material> materials;
-    const std::pair<const char*, LibrarySection> sections[] = {
-        {"materials", LibrarySection::Materials}, {"shapes", LibrarySection::Shapes}, {"lamps", LibrarySection::Lamps}};
+    const std::pair<const char*, LibrarySection> sections[] = {{"materials", LibrarySection::Materials},
+                                                               {"shapes", LibrarySection::Shapes},
+                                                               {"lamps", LibrarySection::Lamps},
+                                                               {"furniture", LibrarySection::Furniture}};
     for (const auto& [list, section] : sections) {
         const QJsonArray entries = root.value(QLatin1StringView(list)).toArray();
         for (const auto& value : entries) {
@@ -284,6 +286,8 @@ Result<std::vector<LibraryItem>> parse_library(const QByteArray& json) {
                     const MaterialId id = alone.materials.next_key();
                     (void)atrium::apply(alone, SceneEdit{AddResource<Material>{id, material}});
                     item.scene = std::make_shared<const Scene>(material_scene(alone, id));
+                } else if (section == LibrarySection::Furniture) { // its file is read when it is needed
+                    item.key = QStringLiteral(":/library/furniture/%1.glb").arg(item.key);
                 } else {
                     item.mount = read_mount(entry);
                     // "Pendant globe, 1000 lm, 2700 K" is called "Pendant globe" in the scene.

@@ -1,4 +1,4 @@
-// What the library offers: shapes, materials and lamps, read from one data file, and models in a folder.
+// What the library offers: shapes, materials, lamps and furniture that ship, told by one data file, and models in a folder.
 #pragma once
 
 #include "engine/base/result.h"
@@ -18,7 +18,7 @@ enum class LibrarySection : std::uint8_t { Shapes, Materials, Lamps, Furniture }
 /// One entry: something to put into a scene, or a material to give to an object.
 struct LibraryItem {
     LibrarySection section = LibrarySection::Shapes;
-    QString key; ///< stable; of furniture, the path of its file
+    QString key; ///< stable; of furniture, the path of its file: what ships is a resource, ":/..."
     QString name;
     QString tip;
     Mount mount = Mount::Stand;
@@ -26,6 +26,8 @@ struct LibraryItem {
     std::shared_ptr<const Scene> scene;
 
     [[nodiscard]] bool is_material() const { return section == LibrarySection::Materials; }
+    /// Comes with the program, not from the user's folder.
+    [[nodiscard]] bool ships() const { return section != LibrarySection::Furniture || key.startsWith(QLatin1Char(':')); }
 };
 
 /// Entries of the file resources/library/library.json (its own "about" says what the fields mean), in its order. An error

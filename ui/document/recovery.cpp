@@ -2,6 +2,7 @@
 
 #include "engine/io/scene_file.h"
 #include "ui/document/background.h"
+#include "ui/document/engine_text.h"
 
 #include <QDir>
 #include <QElapsedTimer>
@@ -263,7 +264,7 @@ void Recovery::start() {
             }
             if (epoch == *epoch_ && !done) {
                 timer_.start();
-                Q_EMIT failed(QString::fromStdString(done.error().message()));
+                Q_EMIT failed(error_message(done.error()));
             } else if (epoch == *epoch_) {
                 written_revision_ = revision;
                 Q_EMIT written();

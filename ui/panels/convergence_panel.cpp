@@ -1,6 +1,7 @@
 #include "ui/panels/convergence_panel.h"
 
 #include "engine/solver/statistics_figures.h"
+#include "ui/document/engine_text.h"
 #include "ui/panels/convergence_plot.h"
 #include "ui/panels/number_parse.h"
 
@@ -273,7 +274,7 @@ void ConvergencePanel::choose_file() {
     });
     connect(dialog, &QFileDialog::fileSelected, this, [this](const QString& path) {
         const auto saved = save(path);
-        Q_EMIT message(saved ? tr("Written to %1.").arg(path) : QString::fromStdString(saved.error().message()));
+        Q_EMIT message(saved ? tr("Written to %1.").arg(path) : error_message(saved.error()));
     });
     dialog->open();
 }

@@ -1,5 +1,6 @@
 #include "ui/panels/jobs_panel.h"
 
+#include "ui/document/engine_text.h"
 #include "ui/panels/number_parse.h"
 
 #include <QHBoxLayout>
@@ -74,6 +75,9 @@ LightState light_state(const EngineLink& engine) {
     const SessionStatus status = engine.status();
     switch (status.state) {
     case SessionStatus::State::Solving:
+        if (status.preparing) {
+            return LightState::UpToDate; // what is shown is complete
+        }
         return status.moving     ? LightState::Moving
                : status.settling ? LightState::Settling
                : status.refining ? LightState::Refining
@@ -172,11 +176,13 @@ void JobsPanel::refresh_status() {
     QString phase;
     if (solving) {
         phase = phase_text(status.phase);
-        if (engine_.solution()) {
+        if (status.preparing) {
+            phase = tr("Getting ready to follow edits: %1").arg(phase);
+        } else if (engine_.solution()) {
             phase += tr(" (the picture is older)");
         }
     } else if (status.state == SessionStatus::State::Failed) {
-        phase = QString::fromStdString(status.message);
+        phase = engine_text(status.message);
     }
     phase_->setText(phase);
     phase_->setToolTip(phase);
@@ -232,8 +238,8 @@ void JobsPanel::refresh_figures() {
     auto* left_out = row(tr("Left out"), QString());
     auto* used = row(tr("In use"), QString());
     for (const Feature& feature : s.features) {
-        auto* item = new QTreeWidgetItem({QString::fromStdString(feature.name).replace(QLatin1Char('_'), QLatin1Char(' ')),
-                                          QString::fromStdString(feature.why)});
+        auto* item = new QTreeWidgetItem(
+            {engine_text(feature.name).replace(QLatin1Char('_'), QLatin1Char(' ')), engine_text(feature.why)});
         item->setToolTip(1, item->text(1));
         (feature.used ? used : left_out)->addChild(item);
     }

@@ -2,6 +2,7 @@
 
 #include "engine/io/scene_file.h"
 #include "ui/document/background.h"
+#include "ui/document/engine_text.h"
 #include "ui/document/insert_commands.h"
 #include "ui/document/scene_mime.h"
 #include "ui/panels/thumbnail.h"
@@ -41,6 +42,20 @@ QImage picture_of(const LibraryItem& item) {
 }
 
 } // namespace
+
+Result<Scene> read_shipped_furniture(const LibraryItem& item) {
+    QFile file(item.key);
+    if (!file.open(QIODevice::ReadOnly)) {
+        return fail(item.key.toStdString(), {}, file.errorString().toStdString());
+    }
+    auto out = scene_from_bytes(file.readAll());
+    if (out) {
+        for (const NodeId root : out->roots) {
+            out->nodes.find(root)->name = item.name.toStdString();
+        }
+    }
+    return out;
+}
 
 Result<Scene> read_furniture(const QString& path) {
     auto loaded = read_scene(path.toStdString());
@@ -94,25 +109,44 @@ int LibraryModel::row_of(const QString& key) const {
 }
 
 void LibraryModel::draw_shipped() {
+    struct Drawn {
+        QImage picture;
+        std::shared_ptr<const Scene> scene; ///< of furniture, read for the picture and kept: it is small
+    };
     run_in_background(
         this,
-        [items = items_]() -> Result<std::vector<QImage>> {
-            std::vector<QImage> out;
+        [items = items_]() -> Result<std::vector<Drawn>> {
+            std::vector<Drawn> out;
             for (const auto& item : items) {
-                out.push_back(picture_of(*item));
+                LibraryItem whole = *item;
+                if (!whole.scene) {
+                    auto scene = read_shipped_furniture(whole);
+                    if (!scene) {
+                        return tl::unexpected(scene.error());
+                    }
+                    whole.scene = std::make_shared<const Scene>(std::move(*scene));
+                }
+                out.push_back({picture_of(whole), whole.scene});
             }
             return out;
         },
-        [this](const Result<std::vector<QImage>>& made) {
-            for (std::size_t i = 0; made && i < made->size(); ++i) {
-                item(int(i))->setIcon(icon_of((*made)[i]));
+        [this](const Result<std::vector<Drawn>>& made) {
+            if (!made) {
+                Q_EMIT message(error_message(made.error()));
+                return;
+            }
+            for (std::size_t i = 0; i < made->size(); ++i) {
+                item(int(i))->setIcon(icon_of((*made)[i].picture));
+                if (!items_[i]->scene) {
+                    items_[i]->scene = (*made)[i].scene;
+                    Q_EMIT loaded(items_[i]->key);
+                }
             }
         });
 }
 
 void LibraryModel::set_folder(const QString& folder) {
-    const auto first = std::find_if(items_.begin(), items_.end(),
-                                    [](const auto& item) { return item->section == LibrarySection::Furniture; });
+    const auto first = std::find_if(items_.begin(), items_.end(), [](const auto& item) { return !item->ships(); });
     const int row = int(first - items_.begin());
     removeRows(row, rowCount() - row);
     items_.erase(first, items_.end());
@@ -135,7 +169,7 @@ void LibraryModel::set_folder(const QString& folder) {
         },
         [this, folder](const Result<QStringList>& found) {
             if (!found) {
-                Q_EMIT message(QString::fromStdString(found.error().message()));
+                Q_EMIT message(error_message(found.error()));
                 return;
             }
             for (const QString& file : *found) {
@@ -178,7 +212,7 @@ void LibraryModel::draw_next() {
                 if (made) {
                     item(row)->setIcon(icon_of(*made));
                 } else {
-                    item(row)->setToolTip(QString::fromStdString(made.error().message()));
+                    item(row)->setToolTip(error_message(made.error()));
                     item(row)->setEnabled(false);
                 }
             }
@@ -191,8 +225,8 @@ void LibraryModel::need(const QModelIndex& index) {
         return;
     }
     const std::shared_ptr<LibraryItem> item = items_[std::size_t(index.row())];
-    if (item->section != LibrarySection::Furniture || item == needed_) {
-        return;
+    if (item->ships() || item == needed_) {
+        return; // what ships is there, or comes with the pictures
     }
     if (needed_) {
         needed_->scene.reset();
@@ -206,7 +240,7 @@ void LibraryModel::need(const QModelIndex& index) {
             }
             if (!made) {
                 needed_.reset();
-                Q_EMIT message(QString::fromStdString(made.error().message()));
+                Q_EMIT message(error_message(made.error()));
                 return;
             }
             item->scene = std::make_shared<const Scene>(std::move(*made));

@@ -59,6 +59,8 @@ private:
     QStringList words_;
 };
 
+/// A piece of furniture that ships, as one node with the entry's name; an error where its resource is not there. Any thread.
+Result<Scene> read_shipped_furniture(const LibraryItem& item);
 /// Reads a model for the library: its shapes and lights under one root that has the file's name, without cameras. Any
 /// thread.
 Result<Scene> read_furniture(const QString& path);

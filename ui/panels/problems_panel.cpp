@@ -2,6 +2,7 @@
 
 #include "ui/actions/icons.h"
 #include "ui/document/background.h"
+#include "ui/document/engine_text.h"
 
 #include <QHeaderView>
 
@@ -81,9 +82,9 @@ void ProblemsPanel::fill(const std::vector<Problem>& found) {
         if (rows.size() >= kMaxRows) {
             continue;
         }
-        QString text = QString::fromStdString(problem.what);
+        QString text = engine_text(problem.what);
         if (!problem.hint.empty()) {
-            text += QLatin1Char('\n') + QString::fromStdString(problem.hint);
+            text += QLatin1Char('\n') + engine_text(problem.hint);
         }
         auto* row = new QTreeWidgetItem({QString::fromStdString(problem.where), text});
         row->setIcon(0, tinted_icon(QLatin1StringView(severity_name(problem.severity))));

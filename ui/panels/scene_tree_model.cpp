@@ -1,6 +1,7 @@
 #include "ui/panels/scene_tree_model.h"
 
 #include "ui/actions/icons.h"
+#include "ui/document/engine_text.h"
 #include "ui/document/scene_commands.h"
 
 #include <QApplication>
@@ -290,7 +291,7 @@ bool SceneTreeModel::setData(const QModelIndex& index, const QVariant& value, in
     renamed.name = name.toStdString();
     const auto done = document_.apply(SceneEdit{SetNode{id, std::move(renamed)}}, tr("Rename"));
     if (!done) {
-        Q_EMIT failed(QString::fromStdString(done.error().message()));
+        Q_EMIT failed(error_message(done.error()));
     }
     return bool(done);
 }
@@ -346,7 +347,7 @@ bool SceneTreeModel::dropMimeData(const QMimeData* data, Qt::DropAction action, 
     const std::size_t index = row < 0 ? SIZE_MAX : std::size_t(row);
     const auto done = document_.apply(reparent_nodes(document_.scene(), nodes, node_at(parent), index), tr("Move in tree"));
     if (!done) {
-        Q_EMIT failed(QString::fromStdString(done.error().message()));
+        Q_EMIT failed(error_message(done.error()));
     }
     return bool(done); // the rows moved with the edit; nothing is left for the view to remove
 }

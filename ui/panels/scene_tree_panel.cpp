@@ -1,5 +1,6 @@
 #include "ui/panels/scene_tree_panel.h"
 
+#include "ui/document/engine_text.h"
 #include "ui/document/scene_commands.h"
 #include "ui/panels/scene_tree_model.h"
 
@@ -151,7 +152,7 @@ void SceneTreePanel::on_clicked(const QModelIndex& index) {
         eye ? set_visible(document_.scene(), nodes, !node->visible) : set_locked(document_.scene(), nodes, !node->locked);
     const QString text = eye ? (node->visible ? tr("Hide") : tr("Show")) : (node->locked ? tr("Unlock") : tr("Lock"));
     if (const auto done = document_.apply(edit, text); !done) {
-        Q_EMIT message(QString::fromStdString(done.error().message()));
+        Q_EMIT message(error_message(done.error()));
     }
 }
 

@@ -1,5 +1,6 @@
 #include "ui/panels/section.h"
 
+#include "ui/document/engine_text.h"
 #include "ui/panels/color_button.h"
 #include "ui/panels/quiet_combo.h"
 
@@ -70,7 +71,7 @@ void Section::refresh() {
 bool Section::apply(const SceneEdit& edit, const QString& text) {
     const auto done = document_.apply(edit, text);
     if (!done) {
-        Q_EMIT message(QString::fromStdString(done.error().message()));
+        Q_EMIT message(error_message(done.error()));
         refresh();
     }
     return bool(done);

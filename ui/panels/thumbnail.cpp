@@ -1,6 +1,6 @@
 #include "ui/panels/thumbnail.h"
 
-#include "engine/layers/surface_layer.h"
+#include "ui/panels/raster_picture.h"
 
 #include <algorithm>
 
@@ -8,11 +8,6 @@ namespace atrium::ui {
 namespace {
 
 constexpr int kOversampling = 2;
-
-QRgb display(const Rgb& linear, float alpha = 1.0F) {
-    const auto byte = [](float v) { return int(std::lround(255.0F * linear_to_srgb(std::clamp(v, 0.0F, 1.0F)))); };
-    return qRgba(byte(linear.r), byte(linear.g), byte(linear.b), int(std::lround(255.0F * alpha)));
-}
 
 Rgb shaded(const Material& material, const dvec3& normal) {
     if (material.emits()) {
@@ -58,10 +53,6 @@ Rgb ball(const Material& material, const dvec3& eye, const dvec3& ray, const dve
     return body + fresnel * seen * (1.0F - 0.7F * blur);
 }
 
-QImage smoothed(const QImage& image, int size) {
-    return image.scaled(size, size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
-}
-
 } // namespace
 
 QImage material_thumbnail(const Material& material, int size) {
@@ -80,80 +71,34 @@ QImage material_thumbnail(const Material& material, int size) {
             const double c = glm::dot(eye, eye) - 1.0;
             const double d = b * b - c;
             image.setPixel(
-                x, y, display(d > 0 ? ball(material, eye, ray, eye + ray * (-b - std::sqrt(d))) : surroundings(eye, ray)));
+                x, y,
+                display_rgb(d > 0 ? ball(material, eye, ray, eye + ray * (-b - std::sqrt(d))) : surroundings(eye, ray)));
         }
     }
-    return smoothed(image, size);
+    return image.scaled(size, size, Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
 }
 
 QImage object_thumbnail(const Scene& scene, int size) {
-    const int side = size * kOversampling;
-    QImage image(side, side, QImage::Format_ARGB32);
-    image.fill(Qt::transparent);
     const DBox3 bounds = scene.bounds();
     if (bounds.empty()) {
-        return smoothed(image, size);
+        QImage nothing(size, size, QImage::Format_ARGB32_Premultiplied);
+        nothing.fill(Qt::transparent);
+        return nothing;
     }
     const dvec3 towards = glm::normalize(dvec3(0.55, 0.5, 1.0)); // from the object to the eye
     const dvec3 right = glm::normalize(glm::cross(dvec3(0, 1, 0), towards));
     const dvec3 up = glm::cross(towards, right);
     const dvec3 half = 0.5 * (bounds.max - bounds.min);
     const double reach = std::max({glm::dot(half, glm::abs(right)), glm::dot(half, glm::abs(up)), 1e-6}) * 1.08;
-    std::vector<double> depth(std::size_t(side) * side, -std::numeric_limits<double>::infinity());
-    for (const NodeId id : scene.in_tree_order()) {
-        const Node* node = scene.nodes.find(id);
-        const Shape* shape = scene.shapes.find(node->shape);
-        if (shape == nullptr || !scene.shown(id)) {
-            continue;
-        }
-        const dmat4 world = scene.world_matrix(id);
-        for (std::size_t part = 0; part < part_count(*shape); ++part) {
-            const Material* own = scene.material_of(*node, part);
-            const Material& material = own == nullptr ? default_material() : *own;
-            const DisplayMesh mesh = make_display_mesh(*shape, part);
-            for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-                dvec3 p[3];
-                dvec3 s[3];
-                for (int k = 0; k < 3; ++k) {
-                    p[k] = dvec3(world * dvec4(dvec3(mesh.positions[mesh.indices[i + std::size_t(k)]]), 1.0));
-                    const dvec3 from = p[k] - bounds.centre();
-                    s[k] = dvec3((glm::dot(from, right) / reach + 1) * 0.5 * side,
-                                 (1 - glm::dot(from, up) / reach) * 0.5 * side, glm::dot(from, towards));
-                }
-                dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
-                const double length = glm::length(normal);
-                if (!(length > 0)) {
-                    continue;
-                }
-                normal = glm::dot(normal, towards) < 0 ? -normal / length : normal / length;
-                const QRgb color = display(shaded(material, normal), 1.0F - 0.6F * material.transmission);
-                const double area = (s[1].x - s[0].x) * (s[2].y - s[0].y) - (s[2].x - s[0].x) * (s[1].y - s[0].y);
-                if (!(std::abs(area) > 1e-9)) {
-                    continue;
-                }
-                const int x0 = std::max(0, int(std::floor(std::min({s[0].x, s[1].x, s[2].x}))));
-                const int x1 = std::min(side - 1, int(std::ceil(std::max({s[0].x, s[1].x, s[2].x}))));
-                const int y0 = std::max(0, int(std::floor(std::min({s[0].y, s[1].y, s[2].y}))));
-                const int y1 = std::min(side - 1, int(std::ceil(std::max({s[0].y, s[1].y, s[2].y}))));
-                for (int y = y0; y <= y1; ++y) {
-                    for (int x = x0; x <= x1; ++x) {
-                        const double px = x + 0.5;
-                        const double py = y + 0.5;
-                        const double a = ((s[1].x - px) * (s[2].y - py) - (s[2].x - px) * (s[1].y - py)) / area;
-                        const double b = ((s[2].x - px) * (s[0].y - py) - (s[0].x - px) * (s[2].y - py)) / area;
-                        const double c = 1 - a - b;
-                        double& z = depth[std::size_t(y) * side + std::size_t(x)];
-                        const double here = a * s[0].z + b * s[1].z + c * s[2].z;
-                        if (a >= -1e-9 && b >= -1e-9 && c >= -1e-9 && here > z) {
-                            z = here;
-                            image.setPixel(x, y, color);
-                        }
-                    }
-                }
-            }
-        }
-    }
-    return smoothed(image, size);
+    RasterCamera camera;
+    camera.perspective = false;
+    camera.pixels = 0.5 * size / reach;
+    camera.to_view = glm::inverse(dmat4(dvec4(right, 0), dvec4(up, 0), dvec4(towards, 0), dvec4(bounds.centre(), 1)));
+    return raster_picture(scene, camera, {size, size}, qRgba(0, 0, 0, 0),
+                          [](const Material& material, const dvec3& normal, const dvec3& to_eye) {
+                              return display_rgb(shaded(material, glm::dot(normal, to_eye) < 0 ? -normal : normal),
+                                                 1.0F - 0.6F * material.transmission);
+                          });
 }
 
 } // namespace atrium::ui

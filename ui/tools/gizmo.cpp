@@ -95,6 +95,8 @@ struct Layout {
 
 } // namespace
 
+bool is_plane(Handle handle) { return handle == Handle::PlaneX || handle == Handle::PlaneY || handle == Handle::PlaneZ; }
+
 int handle_axis(Handle handle) {
     switch (handle) {
     case Handle::AxisX:

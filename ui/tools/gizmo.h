@@ -27,6 +27,8 @@ enum class Handle : std::uint8_t {
 
 /// 0, 1, 2 for the axis that a handle belongs to; -1 for Centre and RingView.
 int handle_axis(Handle handle);
+/// The handle between two arrows.
+bool is_plane(Handle handle);
 
 /// Where a gizmo stands; columns of `axes` are unit and orthogonal. Constant size on the screen.
 struct Gizmo {

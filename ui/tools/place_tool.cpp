@@ -1,5 +1,6 @@
 #include "ui/tools/place_tool.h"
 
+#include "ui/document/engine_text.h"
 #include "ui/document/insert_commands.h"
 #include "ui/tools/surface.h"
 
@@ -25,7 +26,7 @@ bool PlaceTool::insert(const dmat4& placement) {
     const Command command = insert_scene(host_.document().scene(), *item_->scene, placement);
     const auto done = host_.document().apply(command.edit, tr("Add %1").arg(item_->name));
     if (!done) {
-        host_.show_message(QString::fromStdString(done.error().message()));
+        host_.show_message(error_message(done.error()));
         gesture_.reset();
         return false;
     }
@@ -90,7 +91,7 @@ bool PlaceTool::drop(const Pointer& pointer) {
                                                material_in(*item_->scene));
         const auto done = host_.document().apply(edit, tr("Set material %1").arg(item_->name));
         if (!done) {
-            host_.show_message(QString::fromStdString(done.error().message()));
+            host_.show_message(error_message(done.error()));
         }
         host_.document().selection()->set({target_->node});
     } else if (placed) {

@@ -17,6 +17,7 @@ struct Snapping {
     double factor = 0.1;          ///< of a scale
     bool on_surfaces = false;     ///< an object that is dragged by itself goes on what is under the cursor
     bool turn_to_surface = false; ///< and turns with it
+    bool own_axes = false;        ///< handles stand along the object's own axes, not the world's
     friend bool operator==(const Snapping&, const Snapping&) = default;
 };
 

@@ -69,7 +69,11 @@ protected:
     [[nodiscard]] virtual Transform moved(const Drag& drag, const Target& target, const dvec3& amount) const = 0;
     [[nodiscard]] virtual QString read_out(const Drag& drag, const dvec3& amount) const = 0;
     [[nodiscard]] virtual QString undo_text() const = 0;
-    [[nodiscard]] virtual bool drags_bodies() const { return false; }
+    /// Whether a drag that begins on a node moves it.
+    [[nodiscard]] virtual bool drags_body(NodeId /*node*/, const Pointer& /*pointer*/) const { return false; }
+    [[nodiscard]] virtual bool has_handles() const { return true; }
+    /// The node, or one above it, is selected.
+    [[nodiscard]] bool in_selection(NodeId node) const;
 
     /// Writes a signed number with the user's decimal separator.
     static QString number(double value, int decimals);
@@ -79,6 +83,7 @@ protected:
     QString hint_text_;
 
 private:
+    [[nodiscard]] Handle handle_at(const dvec2& point) const;
     [[nodiscard]] std::vector<NodeId> targets() const;
     bool begin(Handle handle, const dvec2& point, std::optional<dvec3> body);
     void apply(const dvec3& amount);
@@ -106,7 +111,22 @@ protected:
     [[nodiscard]] Transform moved(const Drag& drag, const Target& target, const dvec3& amount) const override;
     [[nodiscard]] QString read_out(const Drag& drag, const dvec3& amount) const override;
     [[nodiscard]] QString undo_text() const override;
-    [[nodiscard]] bool drags_bodies() const override { return true; }
+    [[nodiscard]] bool drags_body(NodeId /*node*/, const Pointer& /*pointer*/) const override { return true; }
+};
+
+/// The select tool: a drag that begins on something selected moves the selection as the move tool does, one that begins
+/// anywhere else spans a box; with Ctrl or Shift held it is a box everywhere.
+class SelectAndMoveTool : public MoveTool {
+public:
+    using MoveTool::MoveTool;
+    /// A drag from there would move the selection.
+    [[nodiscard]] bool grabs(NodeId node) const { return in_selection(node) && gizmo().has_value(); }
+
+protected:
+    [[nodiscard]] bool drags_body(NodeId node, const Pointer& pointer) const override {
+        return (pointer.modifiers & (Qt::ControlModifier | Qt::ShiftModifier)) == 0 && grabs(node);
+    }
+    [[nodiscard]] bool has_handles() const override { return false; }
 };
 
 class RotateTool : public TransformTool {

@@ -2,6 +2,7 @@
 
 #include "engine/measure/light_range.h"
 #include "ui/document/background.h"
+#include "ui/document/engine_text.h"
 
 #include <QCoreApplication>
 #include <QLocale>
@@ -18,8 +19,9 @@ QString told(const char* text) { return QCoreApplication::translate("Inspection"
 
 } // namespace
 
-LightInspector::LightInspector(std::function<const Scene&()> scene, QObject* parent)
-    : QObject(parent), scene_(std::move(scene)) {
+LightInspector::LightInspector(std::function<const Scene&()> scene,
+                               std::function<std::shared_ptr<const LocalError>()> known_error, QObject* parent)
+    : QObject(parent), scene_(std::move(scene)), known_error_(std::move(known_error)) {
     fade_.setInterval(kFadeTickMs);
     connect(&fade_, &QTimer::timeout, this, [this] {
         if (update_age_.elapsed() >= kFadeMs) {
@@ -209,7 +211,10 @@ void LightInspector::make_error() {
     stop_error_ = StopFlag();
     run_in_background(
         this,
-        [scene = scene_(), solution = solution_, stop = stop_error_]() -> Result<ErrorFigures> {
+        [scene = scene_(), solution = solution_, stop = stop_error_, known = known_error_()]() -> Result<ErrorFigures> {
+            if (known) {
+                return error_colors(scene, *solution, *known);
+            }
             AuditSettings settings = audit_settings(scene.settings.quality);
             settings.seed = scene.settings.seed;
             RunContext context;
@@ -230,7 +235,7 @@ void LightInspector::make_error() {
                 error_ = *made;
                 error_surfaces_ = of->surfaces;
             } else {
-                error_failure_ = QString::fromStdString(made.error().message());
+                error_failure_ = error_message(made.error());
             }
             Q_EMIT figures_changed();
         });

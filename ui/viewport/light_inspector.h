@@ -32,8 +32,9 @@ struct InspectionChoice {
 class LightInspector : public QObject {
     Q_OBJECT
 public:
-    /// `scene` gives the one that is shown.
-    LightInspector(std::function<const Scene&()> scene, QObject* parent);
+    /// `scene` gives the one that is shown, `known_error` what is known of the error of its light; null for nothing.
+    LightInspector(std::function<const Scene&()> scene, std::function<std::shared_ptr<const LocalError>()> known_error,
+                   QObject* parent);
     ~LightInspector() override { stop_error_.request_stop(); }
 
     void set_choice(const InspectionChoice& choice);
@@ -81,6 +82,7 @@ private:
     void make_histogram();
 
     std::function<const Scene&()> scene_;
+    std::function<std::shared_ptr<const LocalError>()> known_error_;
     InspectionChoice choice_;
     std::shared_ptr<const Solution> solution_;
     std::unordered_set<NodeId> of_;

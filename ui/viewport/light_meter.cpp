@@ -50,6 +50,14 @@ std::optional<MeterReading> read_hit(const ViewItem& item, const Scene& scene, c
     return out;
 }
 
+/// Tells the error that is likely at the place of a reading, where that is known.
+void judge(MeterReading& reading, const LocalError* error) {
+    if (error != nullptr && !error->empty()) {
+        LightReading& light = reading.light;
+        light.standard_error = light.illuminance * error->at(reading.point, reading.normal, light.illuminance);
+    }
+}
+
 QString tr_meter(const char* text) { return QCoreApplication::translate("LightMeter", text); }
 
 QString error_text(double error) {
@@ -58,7 +66,8 @@ QString error_text(double error) {
 
 } // namespace
 
-std::optional<MeterReading> read_along(const ViewScene& view, const Scene& scene, const Solution& solution, const Ray& ray) {
+std::optional<MeterReading> read_along(const ViewScene& view, const Scene& scene, const Solution& solution, const Ray& ray,
+                                       const LocalError* error) {
     Ray rest = ray;
     for (int pane = 0; pane < kPanes; ++pane) {
         const auto hit = view.pick(rest);
@@ -79,6 +88,7 @@ std::optional<MeterReading> read_along(const ViewScene& view, const Scene& scene
         if (out) {
             out->point = hit->point;
             out->normal = hit->normal;
+            judge(*out, error);
         }
         return out;
     }
@@ -119,7 +129,8 @@ void MeasuringPoints::remove(int number) {
     std::erase_if(points_, [number](const Point& point) { return point.number == number; });
 }
 
-void MeasuringPoints::read(const ViewScene& view, const Scene& scene, const std::shared_ptr<const Solution>& solution) {
+void MeasuringPoints::read(const ViewScene& view, const Scene& scene, const std::shared_ptr<const Solution>& solution,
+                           const LocalError* error) {
     for (Point& point : points_) {
         point.reading.reset();
         const auto item = std::find_if(view.items().begin(), view.items().end(), [&](const ViewItem& one) {
@@ -142,6 +153,7 @@ void MeasuringPoints::read(const ViewScene& view, const Scene& scene, const std:
         if (point.reading) {
             point.reading->point = place;
             point.reading->normal = normal;
+            judge(*point.reading, error);
         }
     }
 }

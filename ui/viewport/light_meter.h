@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/measure/light_reading.h"
+#include "engine/measure/local_error.h"
 #include "ui/viewport/view_scene.h"
 
 #include <string>
@@ -18,8 +19,10 @@ struct MeterReading {
 };
 
 /// The light on the first surface that a ray meets, glass looked through; none where that is no matt surface or has no
-/// light yet. As quick as a pick. UI thread.
-std::optional<MeterReading> read_along(const ViewScene& view, const Scene& scene, const Solution& solution, const Ray& ray);
+/// light yet. As quick as a pick. With `error`, the standard error is what is likely at that place, not that of the whole
+/// scene. UI thread.
+std::optional<MeterReading> read_along(const ViewScene& view, const Scene& scene, const Solution& solution, const Ray& ray,
+                                       const LocalError* error = nullptr);
 
 /// "312 lx \u00b1 6", "98 cd/m\u00b2" and what came which way: the lines of a label.
 QStringList reading_lines(const LightReading& light);
@@ -39,8 +42,9 @@ public:
     void add(const Scene& scene, const MeterReading& reading);
     void remove(int number);
     void clear() { points_.clear(); }
-    /// Brings the readings up to date.
-    void read(const ViewScene& view, const Scene& scene, const std::shared_ptr<const Solution>& solution);
+    /// Brings the readings up to date; `error` as for read_along().
+    void read(const ViewScene& view, const Scene& scene, const std::shared_ptr<const Solution>& solution,
+              const LocalError* error = nullptr);
     /// Finds out what is in sight.
     void look(const ViewScene& view, const CameraController& camera);
     [[nodiscard]] const std::vector<Point>& points() const { return points_; }

@@ -31,6 +31,9 @@ void ViewportWidget::Impl::flush() {
         }
         const auto hit = tool_kind == ToolKind::Measure ? std::nullopt : pick(pointer.position);
         set_hovered(hit ? hit->node : NodeId{});
+        if (tool_kind == ToolKind::Select) {
+            widget.setCursor(hit && select->grabs(hit->node) ? Qt::SizeAllCursor : Qt::ArrowCursor);
+        }
         if (inspector.links() && inspector.point_at(doc.scene(), view.pick(controller.ray(pointer.position)))) {
             widget.update();
         }

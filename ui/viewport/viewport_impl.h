@@ -41,7 +41,8 @@ struct ViewportWidget::Impl final : ToolHost {
     std::shared_ptr<const Solution> awaited;  ///< shown as soon as its light maps are uploaded
 
     std::array<std::unique_ptr<Tool>, 5> tools;
-    MeasureTool* measure = nullptr; ///< one of them
+    SelectAndMoveTool* select = nullptr; ///< one of them
+    MeasureTool* measure = nullptr;      ///< another
     MeasuringPoints points;
     ToolKind tool_kind = ToolKind::Select;
     PlaceTool place_tool{*this};
@@ -121,6 +122,8 @@ struct ViewportWidget::Impl final : ToolHost {
 
     [[nodiscard]] std::optional<MeterReading> read_light(const dvec2& point) const override;
     MeasuringPoints& measuring_points() override;
+    /// Of the light on show; null where it is not known.
+    [[nodiscard]] std::shared_ptr<const LocalError> local_error() const;
 
     [[nodiscard]] Tool& tool() { return *tools[std::size_t(tool_kind)]; }
     [[nodiscard]] float scale() const { return exposure_scale(mean_radiance, exposure_ev); }

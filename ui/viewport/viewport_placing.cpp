@@ -1,6 +1,7 @@
 // Where things go that are put into the view: drops, the library, lamps, falling; and showing some objects alone.
 #include "ui/viewport/viewport_impl.h"
 
+#include "ui/document/engine_text.h"
 #include "ui/document/insert_commands.h"
 #include "ui/document/scene_commands.h"
 #include "ui/document/scene_mime.h"
@@ -134,7 +135,7 @@ void ViewportWidget::drop_to_surface() {
         return;
     }
     const auto done = doc.apply(as_one(std::move(edits)), tr("Drop to surface"));
-    Q_EMIT message(!done                   ? QString::fromStdString(done.error().message())
+    Q_EMIT message(!done                   ? error_message(done.error())
                    : std::abs(most) < 5e-4 ? tr("The selection rests already.")
                                            : tr("Lowered by %1 m").arg(QLocale().toString(most, 'f', 3)));
 }

@@ -19,14 +19,24 @@ constexpr double kMeanJump = 8.0;
 } // namespace
 
 ViewportWidget::Impl::Impl(ViewportWidget& w, Document& d, EngineLink& e)
-    : widget(w), doc(d), engine(e), inspector([this]() -> const Scene& { return doc.scene(); }, &w) {
-    tools[0] = std::make_unique<SelectTool>(*this);
+    : widget(w), doc(d), engine(e),
+      inspector([this]() -> const Scene& { return doc.scene(); }, [this] { return local_error(); }, &w) {
+    auto selecting = std::make_unique<SelectAndMoveTool>(*this);
+    select = selecting.get();
+    tools[0] = std::move(selecting);
     tools[1] = std::make_unique<MoveTool>(*this);
     tools[2] = std::make_unique<RotateTool>(*this);
     tools[3] = std::make_unique<ScaleTool>(*this);
     auto measuring = std::make_unique<MeasureTool>(*this);
     measure = measuring.get();
     tools[4] = std::move(measuring);
+    for (const auto& [timer, name] : {std::pair{&pending_timer, "mouse"},
+                                      {&refine_timer, "refine"},
+                                      {&probe_timer, "probe"},
+                                      {&upload_timer, "upload"},
+                                      {&walk_timer, "walk"}}) {
+        timer->setObjectName(QLatin1StringView(name)); // who is told to have held the window
+    }
     pending_timer.setSingleShot(true);
     pending_timer.setInterval(0);
     refine_timer.setSingleShot(true);
@@ -79,7 +89,13 @@ std::optional<PickHit> ViewportWidget::Impl::pick(const dvec2& point) const {
 }
 
 std::optional<MeterReading> ViewportWidget::Impl::read_light(const dvec2& point) const {
-    return solution ? read_along(view, doc.scene(), *solution, controller.ray(point)) : std::nullopt;
+    const auto error = local_error();
+    return solution ? read_along(view, doc.scene(), *solution, controller.ray(point), error.get()) : std::nullopt;
+}
+
+std::shared_ptr<const LocalError> ViewportWidget::Impl::local_error() const {
+    const auto newest = engine.solution(); // may wait for its light maps to be uploaded
+    return solution && newest && solution->surfaces == newest->surfaces ? engine.local_error() : nullptr;
 }
 
 MeasuringPoints& ViewportWidget::Impl::measuring_points() {
@@ -289,7 +305,7 @@ void ViewportWidget::Impl::sync() {
         if (view.isolated()) {
             std::erase_if(markers, [this](const Marker& m) { return !view.isolated()->contains(m.node); });
         }
-        points.read(view, doc.scene(), solution);
+        points.read(view, doc.scene(), solution, local_error().get());
         markers_dirty = true;
         if (!doc.in_gesture()) {
             controller.set_scene_bounds(robust_bounds(doc.scene()));

@@ -3,6 +3,7 @@
 #include "engine/io/image_file.h"
 #include "engine/view/tone.h"
 #include "ui/document/background.h"
+#include "ui/document/engine_text.h"
 #include "ui/panels/number_field.h"
 #include "ui/viewport/legend.h"
 #include "ui/window/settings.h"
@@ -236,7 +237,7 @@ void ExportPictureDialog::render(const QString& path) {
             bar_->setEnabled(false);
             preview_->hide();
             if (!done) {
-                error_->setText(QString::fromStdString(done.error().message()));
+                error_->setText(error_message(done.error()));
                 error_->show();
             } else if (*done) {
                 Q_EMIT message(tr("Picture written to %1.").arg(path));

@@ -3,6 +3,7 @@
 #include "engine/io/relink.h"
 #include "engine/io/scene_file.h"
 #include "ui/document/background.h"
+#include "ui/document/engine_text.h"
 #include "ui/document/insert_commands.h"
 #include "ui/document/sample_room.h"
 #include "ui/window/file_names.h"
@@ -49,8 +50,9 @@ Result<Opened> read_file(const QString& path) {
             Problem problem;
             problem.severity = Problem::Severity::Note;
             problem.where = QFileInfo(path).fileName().toStdString();
-            problem.what = "the stored light could not be used: " + solution.error().message();
-            problem.hint = "It is computed again.";
+            problem.what = FileController::tr("the stored light could not be used: %1")
+                               .arg(error_message(solution.error()))
+                               .toStdString();
             loaded->problems.push_back(std::move(problem));
         }
     }
@@ -75,7 +77,7 @@ FileController::FileController(Document& document, EngineLink& engine, Recovery&
 void FileController::report_busy() { Q_EMIT busy_changed(busy() ? busy_text_ : QString(), loading_); }
 
 QString FileController::error_text(const Error& error) {
-    QString text = QString::fromStdString(error.what);
+    QString text = engine_text(error.what);
     if (!text.isEmpty()) {
         text[0] = text[0].toUpper();
     }
@@ -88,7 +90,7 @@ QString FileController::error_text(const Error& error) {
     }
     lines += text;
     if (!error.hint.empty()) {
-        lines += QString::fromStdString(error.hint);
+        lines += engine_text(error.hint);
     }
     return lines.join(QLatin1Char('\n'));
 }
@@ -202,7 +204,7 @@ void FileController::start_open(OpenRequest request) {
                     Q_EMIT recent_changed();
                 }
                 show_error(tr("%1 could not be opened").arg(shown), result.error());
-                Q_EMIT open_failed(QString::fromStdString(result.error().message()));
+                Q_EMIT open_failed(error_message(result.error()));
                 return;
             }
             const auto opened = std::make_shared<Opened>(std::move(*result));
@@ -213,6 +215,7 @@ void FileController::start_open(OpenRequest request) {
                 replace(std::move(opened->scene), QFileInfo(request.path).absoluteFilePath(), std::move(opened->problems),
                         now);
                 engine_.load(std::move(opened->solution));
+                engine_.prepare(); // the first drag is to be followed as it was before saving
                 if (request.then) {
                     request.then();
                 } else {
@@ -241,14 +244,13 @@ void FileController::start_open(OpenRequest request) {
             auto* rescue = box->addButton(tr("Open What Is Left"), QMessageBox::AcceptRole);
             box->setEscapeButton(box->addButton(QMessageBox::Cancel));
             box->setDefaultButton(rescue);
-            connect(box, &QMessageBox::finished, this,
-                    [this, box, rescue, show, why = QString::fromStdString(opened->damage.message())] {
-                        if (box->clickedButton() == rescue) {
-                            show();
-                        } else {
-                            Q_EMIT open_failed(why);
-                        }
-                    });
+            connect(box, &QMessageBox::finished, this, [this, box, rescue, show, why = error_message(opened->damage)] {
+                if (box->clickedButton() == rescue) {
+                    show();
+                } else {
+                    Q_EMIT open_failed(why);
+                }
+            });
             box->open();
         });
 }

@@ -129,6 +129,8 @@ void MainWindow::make_snapping() {
     QAction* snap = (*actions_)[ActionId::Snap];
     QAction* slide = (*actions_)[ActionId::SlideOnSurfaces];
     QAction* turn = (*actions_)[ActionId::TurnToSurface];
+    QAction* own = (*actions_)[ActionId::OwnAxes];
+    own->setChecked(remembered.own_axes);
     snap->setChecked(remembered.on);
     slide->setChecked(remembered.on_surfaces);
     turn->setChecked(remembered.turn_to_surface);
@@ -141,22 +143,27 @@ void MainWindow::make_snapping() {
         if (now.on_surfaces) {
             parts << (now.turn_to_surface ? tr("Slide and turn") : tr("Slide"));
         }
+        if (now.own_axes) {
+            parts << tr("Own axes");
+        }
         snap_badge_->setText(parts.join(QStringLiteral("  |  ")));
         snap_badge_->setVisible(!parts.isEmpty());
         snap_badge_->setToolTip(tr("How drags snap: Edit > Snapping. Click to change it."));
         snap_badge_->setAccessibleName(tr("Snapping"));
     };
-    const auto changed = [this, snap, slide, turn, show_badge] {
+    const auto changed = [this, snap, slide, turn, own, show_badge] {
         Snapping next = viewport_->snapping();
         next.on = snap->isChecked();
         next.on_surfaces = slide->isChecked();
         next.turn_to_surface = turn->isChecked();
+        next.own_axes = own->isChecked();
         viewport_->set_snapping(next);
+        viewport_->update(); // handles turn
         Settings().set_snapping(next);
         turn->setEnabled(next.on_surfaces);
         show_badge();
     };
-    for (QAction* action : {snap, slide, turn}) {
+    for (QAction* action : {snap, slide, turn, own}) {
         connect(action, &QAction::toggled, this, changed);
     }
     turn->setEnabled(remembered.on_surfaces);
@@ -171,7 +178,7 @@ void MainWindow::make_snapping() {
 
 void MainWindow::fill_snapping_menu(QMenu* menu) {
     menu->setObjectName(QStringLiteral("menu_snapping"));
-    for (const ActionId id : {ActionId::Snap, ActionId::SlideOnSurfaces, ActionId::TurnToSurface}) {
+    for (const ActionId id : {ActionId::Snap, ActionId::SlideOnSurfaces, ActionId::TurnToSurface, ActionId::OwnAxes}) {
         menu->addAction((*actions_)[id]);
     }
     const Snapping remembered = Settings().snapping();

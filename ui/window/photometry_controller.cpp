@@ -1,6 +1,7 @@
 #include "ui/window/photometry_controller.h"
 
 #include "ui/document/background.h"
+#include "ui/document/engine_text.h"
 #include "ui/document/scene_commands.h"
 #include "ui/panels/photometry_box.h"
 #include "ui/window/settings.h"
@@ -40,7 +41,7 @@ void PhotometryController::assign(const QString& path, const std::vector<LightId
         if (done) {
             tell(path, loaded);
         } else {
-            Q_EMIT message(QString::fromStdString(done.error().message()));
+            Q_EMIT message(error_message(done.error()));
         }
     });
 }
@@ -55,7 +56,7 @@ void PhotometryController::add(const QString& path, const dvec3& at) {
             document_.selection()->set(command.select);
             tell(path, loaded);
         } else {
-            Q_EMIT message(QString::fromStdString(done.error().message()));
+            Q_EMIT message(error_message(done.error()));
         }
     });
 }
@@ -87,7 +88,7 @@ void PhotometryController::read(const QString& path, std::function<void(const Lo
                 auto* box =
                     new QMessageBox(QMessageBox::Warning, tr("Photometric File"),
                                     tr("%1 cannot be used.").arg(QFileInfo(path).fileName()), QMessageBox::Ok, window_);
-                box->setInformativeText(QString::fromStdString(error.message()));
+                box->setInformativeText(error_message(error));
                 box->setAttribute(Qt::WA_DeleteOnClose);
                 box->open();
                 return;

@@ -25,6 +25,15 @@ PreferencesDialog::PreferencesDialog(QWidget* parent) : QDialog(parent) {
     }
     language_->setCurrentIndex(std::max(0, language_->findData(settings.language())));
     form->addRow(tr("&Language:"), language_);
+    appearance_ = new QComboBox;
+    appearance_->setObjectName(QStringLiteral("appearance"));
+    for (const auto& [text, value] : {std::pair{tr("As the system"), Appearance::System},
+                                      {tr("Light"), Appearance::Light},
+                                      {tr("Dark"), Appearance::Dark}}) {
+        appearance_->addItem(text, appearance_name(value));
+    }
+    appearance_->setCurrentIndex(appearance_->findData(appearance_name(settings.appearance())));
+    form->addRow(tr("&Colours:"), appearance_);
     autosave_ = new QComboBox;
     autosave_->setObjectName(QStringLiteral("autosave"));
     for (const int seconds : {10, 30, 60, 120}) {
@@ -47,6 +56,8 @@ PreferencesDialog::PreferencesDialog(QWidget* parent) : QDialog(parent) {
 void PreferencesDialog::store() {
     Settings settings;
     settings.set_language(language_->currentData().toString());
+    settings.set_appearance(appearance_of(appearance_->currentData().toString()));
+    apply_appearance(settings.appearance());
     settings.set_autosave_seconds(autosave_->currentData().toInt());
     accept();
     Q_EMIT stored();

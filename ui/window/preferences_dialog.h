@@ -19,6 +19,7 @@ Q_SIGNALS:
 private:
     void store();
     QComboBox* language_;
+    QComboBox* appearance_;
     QComboBox* autosave_;
 };
 

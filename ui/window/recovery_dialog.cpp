@@ -2,6 +2,8 @@
 
 #include "engine/io/scene_file.h"
 #include "ui/document/background.h"
+#include "ui/document/engine_text.h"
+#include "ui/panels/lit_picture.h"
 #include "ui/panels/room_picture.h"
 #include "ui/window/file_names.h"
 
@@ -34,18 +36,39 @@ struct Compared {
 
 QString date_text(const QDateTime& date) { return QLocale().toString(date, QStringLiteral("d MMM yyyy  HH:mm:ss")); }
 
+/// Both pictures in the saved light where there is any, so that they can be compared; else both without light.
+void draw(Compared& out, const Scene* recovered, const LoadedScene* saved, const ViewCamera& camera) {
+    std::shared_ptr<const Solution> light;
+    if (saved != nullptr && !saved->solution.empty()) {
+        light = decode_solution(saved->solution, saved->scene).value_or(nullptr);
+    }
+    if (light && !light->surfaces.empty()) {
+        out.saved = lit_picture(saved->scene, *light, camera, kPicture);
+        if (recovered != nullptr) {
+            out.recovered = lit_picture(*recovered, carried_light(saved->scene, *light, *recovered), camera, kPicture);
+        }
+        return;
+    }
+    if (recovered != nullptr) {
+        out.recovered = room_picture(*recovered, camera, kPicture);
+    }
+    if (saved != nullptr) {
+        out.saved = room_picture(saved->scene, camera, kPicture);
+    }
+}
+
 /// Any thread.
 Compared compare(const RecoveredFile& file) {
     Compared out;
     const auto recovered = read_scene(to_path(file.path));
     if (!recovered) {
-        out.recovered_error = QString::fromStdString(recovered.error().message());
+        out.recovered_error = error_message(recovered.error());
     }
     std::optional<Result<LoadedScene>> saved;
     if (!file.original.isEmpty() && QFileInfo::exists(file.original)) {
         saved = read_scene(to_path(file.original));
         if (!*saved) {
-            out.saved_error = QString::fromStdString(saved->error().message());
+            out.saved_error = error_message(saved->error());
         }
     }
     const bool have_saved = saved && *saved;
@@ -53,12 +76,7 @@ Compared compare(const RecoveredFile& file) {
         // One place to look from for both, or they could not be compared.
         const Scene& leading = recovered ? recovered->scene : (*saved)->scene;
         const ViewCamera camera = file.camera ? *file.camera : default_camera(leading);
-        if (recovered) {
-            out.recovered = room_picture(recovered->scene, camera, kPicture);
-        }
-        if (have_saved) {
-            out.saved = room_picture((*saved)->scene, camera, kPicture);
-        }
+        draw(out, recovered ? &recovered->scene : nullptr, have_saved ? &**saved : nullptr, camera);
     }
     if (recovered && have_saved) {
         out.comparable = true;
@@ -271,7 +289,7 @@ void RecoveryDialog::show_file(int index) {
                 }
             };
             if (!done) {
-                recovered_picture_->setText(QString::fromStdString(done.error().message()));
+                recovered_picture_->setText(error_message(done.error()));
                 return;
             }
             show(recovered_picture_, done->recovered, done->recovered_error);

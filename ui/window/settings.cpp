@@ -30,6 +30,7 @@ constexpr const char* kSnapGrid = "snap/grid_metres";
 constexpr const char* kSnapAngle = "snap/angle_degrees";
 const QString kSnapSurfaces = QStringLiteral("snap/slide_on_surfaces");
 const QString kSnapTurn = QStringLiteral("snap/turn_to_surface");
+const QString kSnapOwn = QStringLiteral("snap/own_axes");
 const QString kFurniture = QStringLiteral("library/furniture_folder");
 const QString kFalseColor = QStringLiteral("view/false_colour");
 const QString kContours = QStringLiteral("view/contours");
@@ -122,6 +123,7 @@ Snapping Settings::snapping() const {
     out.angle = radians_from_degrees(step(kSnapAngle, degrees_from_radians(plain.angle)));
     out.on_surfaces = settings.value(kSnapSurfaces, false).toBool();
     out.turn_to_surface = settings.value(kSnapTurn, false).toBool();
+    out.own_axes = settings.value(kSnapOwn, false).toBool();
     return out;
 }
 
@@ -132,6 +134,7 @@ void Settings::set_snapping(const Snapping& snapping) {
     settings.setValue(QLatin1StringView(kSnapAngle), degrees_from_radians(snapping.angle));
     settings.setValue(kSnapSurfaces, snapping.on_surfaces);
     settings.setValue(kSnapTurn, snapping.turn_to_surface);
+    settings.setValue(kSnapOwn, snapping.own_axes);
 }
 
 QString Settings::furniture_folder() const { return QSettings().value(kFurniture).toString(); }
@@ -168,6 +171,12 @@ void Settings::set_scale_choice(LightQuantity quantity, const ScaleChoice& choic
     settings.setValue(QStringLiteral("automatic"), choice.automatic);
     settings.setValue(QStringLiteral("minimum"), choice.minimum);
     settings.setValue(QStringLiteral("maximum"), choice.maximum);
+}
+
+Appearance Settings::appearance() const { return appearance_of(QSettings().value(QStringLiteral("appearance")).toString()); }
+
+void Settings::set_appearance(Appearance appearance) {
+    QSettings().setValue(QStringLiteral("appearance"), appearance_name(appearance));
 }
 
 QString Settings::language() const { return QSettings().value(kLanguage).toString(); }

@@ -4,6 +4,7 @@
 #include "engine/layers/surface_layer.h"
 #include "engine/view/false_color.h"
 #include "ui/tools/snapping.h"
+#include "ui/window/appearance.h"
 
 #include <QByteArray>
 #include <QString>
@@ -50,6 +51,9 @@ public:
     /// "fr", "en"; empty = that of the system.
     [[nodiscard]] QString language() const;
     void set_language(const QString& language);
+    /// Light or dark.
+    [[nodiscard]] Appearance appearance() const;
+    void set_appearance(Appearance appearance);
     [[nodiscard]] int autosave_seconds() const; ///< after a change, 10 to 120
     void set_autosave_seconds(int seconds);
     [[nodiscard]] bool contours() const;
