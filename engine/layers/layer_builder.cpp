@@ -15,6 +15,7 @@ namespace atrium {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+constexpr float kShortest = 0.5F; // of the smallest edge: shorter edges are not split however much light changes on them
 constexpr float kPullIn =
     0.25F; // of the shortest edge: how far a sample is moved off its vertex towards the triangles' inside
 
@@ -309,10 +310,15 @@ private:
         return difference > 1.5F * noise ? difference / std::max({mean, lm, floor}) : 0.0F;
     }
 
-    [[nodiscard]] bool alike(const LightVertex& a, const LightVertex& b) const {
+    /// Deviation that asks for a split of an edge: short ones have little area to err on, and what counts is the squared
+    /// error times the area.
+    [[nodiscard]] float wanted(float length) const {
+        return settings_.contrast * std::max(2.0F * settings_.smallest_edge / length, 1.0F);
+    }
+    [[nodiscard]] bool alike(const LightVertex& a, const LightVertex& b, float contrast) const {
         const auto close = [&](const DirectSample& p, const DirectSample& q) {
             const float x = luminance(p.irradiance), y = luminance(q.irradiance);
-            return std::abs(x - y) <= settings_.contrast * std::max({x, y, settings_.light_floor});
+            return std::abs(x - y) <= contrast * std::max({x, y, settings_.light_floor});
         };
         return a.front_covered == b.front_covered && close(front(a), front(b)) && (!a.wants_back || close(back(a), back(b)));
     }
@@ -342,12 +348,13 @@ private:
                 for (std::size_t k = 0; k < 3; ++k) {
                     const std::uint32_t a = std::min(t.v[k], t.v[(k + 1) % 3]), b = std::max(t.v[k], t.v[(k + 1) % 3]);
                     const float length = edge_length(mesh, a, b);
-                    if (length <= 2.0F * settings_.smallest_edge) {
+                    if (length <= kShortest * settings_.smallest_edge) {
                         continue;
                     }
                     // The file's own short edges are looked at only where their ends already differ: fine meshes have
                     // far more edges than light has detail.
-                    if (first_look && length <= 0.25F * settings_.base_edge && alike(mesh.vertices[a], mesh.vertices[b])) {
+                    const bool is_short = length <= std::max(0.25F * settings_.base_edge, 2.0F * settings_.smallest_edge);
+                    if (first_look && is_short && alike(mesh.vertices[a], mesh.vertices[b], wanted(length))) {
                         continue;
                     }
                     const auto [it, fresh] = seen.try_emplace(edge_key(a, b), candidates.size());
@@ -375,6 +382,7 @@ private:
             const LightVertex& a = meshes_[c.mesh].vertices[c.a];
             const LightVertex& b = meshes_[c.mesh].vertices[c.b];
             // Between covered points there is nothing to see; the border itself is the object's and needs no finer mesh.
+            const float contrast = wanted(edge_length(meshes_[c.mesh], c.a, c.b));
             float d = 0.0F;
             if (int(a.front_covered) + int(b.front_covered) + int(c.middle.front_covered) == 0) {
                 d = deviation(front(a), front(c.middle), front(b), settings_.light_floor);
@@ -384,8 +392,8 @@ private:
             if (a.wants_back && int(a.back_covered) + int(b.back_covered) + int(c.middle.back_covered) == 0) {
                 d = std::max(d, deviation(back(a), back(c.middle), back(b), settings_.light_floor));
             }
-            if (d > settings_.contrast) {
-                strong.emplace_back(d, i);
+            if (d > contrast) {
+                strong.emplace_back(d / contrast, i);
             }
         }
         if (strong.empty()) {

@@ -132,10 +132,13 @@ std::vector<std::vector<VertexChange>> GiEngine::look_from_vertices(Impl& s, con
         for (const Look& l : looks) {
             shares.push_back(l.share);
         }
-        std::nth_element(shares.begin(), shares.begin() + std::ptrdiff_t(effort.most_vertices), shares.end(),
+        std::nth_element(shares.begin(), shares.begin() + std::ptrdiff_t(effort.most_vertices - 1), shares.end(),
                          std::greater<>());
-        const float least = shares[effort.most_vertices];
-        std::erase_if(looks, [&](const Look& l) { return l.share <= least; });
+        // The share of many may be the same, as of all vertices of a large thing that moved.
+        const float least = shares[effort.most_vertices - 1];
+        auto room = std::ptrdiff_t(effort.most_vertices) -
+                    std::count_if(shares.begin(), shares.end(), [&](float share) { return share > least; });
+        std::erase_if(looks, [&](const Look& l) { return l.share < least || (l.share == least && room-- <= 0); });
     }
     const auto place_of = [&](const Look& l) -> const SurfacePoint& {
         return live.layers.places[l.layer].side(l.change.back)[l.change.vertex];

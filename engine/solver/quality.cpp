@@ -30,7 +30,7 @@ QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal
         f.reflected.near = 1.0F;
         f.reflected.bright = {2.0F * tolerance, 4 * cut, rays, 0, 0, 1.5F};
         f.cache.spacing = std::clamp(4.0F * std::sqrt(tolerance), 0.3F, 0.9F);
-        f.cache.smallest_reach = 2.0F * tolerance * unit;
+        f.cache.smallest_reach = 4.0F * tolerance * unit;
         f.cache.largest_reach = 1.0F * unit;
         f.cache.normal_cosine = 1.0F - 6.0F * tolerance;
         f.cache.contrast = 2.0F * tolerance;

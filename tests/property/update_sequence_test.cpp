@@ -70,7 +70,7 @@ TEST(UpdateSequence, AHundredRandomMovesEndInTheLightOfANewSolution) {
     const LightDifference seeds = light_difference(f.room.scene, *f.fresh(2), *anew, places);
     std::printf("100 moves, settled: rms %.2f %%, energy %.3f %%; two seeds: %.2f %%, %.3f %%\n", 100.0 * d.rel_rms,
                 100.0 * d.energy_rel, 100.0 * seeds.rel_rms, 100.0 * seeds.energy_rel);
-    constexpr double kTodayRms = 0.0125, kTodayEnergy = 0.0016;
+    constexpr double kTodayRms = 0.0125, kTodayEnergy = 0.0021;
     EXPECT_LT(d.rel_rms, kTodayRms);
     EXPECT_LT(d.energy_rel, kTodayEnergy);
     EXPECT_EQ(negative_light(*settled), 0U);
