@@ -12,6 +12,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QLineEdit>
+#include <QPointer>
 #include <QProcess>
 #include <QPushButton>
 #include <QSignalSpy>
@@ -84,7 +85,12 @@ TEST_F(SessionWork, AnAfternoon) {
     name->setFocus();
     QTest::keyClick(name, Qt::Key_A, Qt::ControlModifier);
     QTest::keyClicks(name, in_session("bowl.glb"));
-    QTest::keyClick(name, Qt::Key_Return);
+    // The list of names that complete what was typed may come late and take the key for itself.
+    const QPointer<QFileDialog> open(files);
+    for (int k = 0; k < 5 && open && open->isVisible(); ++k) {
+        QTest::keyClick(name, Qt::Key_Return);
+        (void)QTest::qWaitFor([&] { return !open || !open->isVisible(); }, 2000);
+    }
     ++done;
     ASSERT_TRUE(QTest::qWaitFor([&] { return entries() == done; }, 60000));
     EXPECT_EQ(node(window->document().selection()->active()).name, "bowl");
@@ -167,7 +173,12 @@ TEST_F(SessionWork, AnAfternoon) {
     carry(vase, way.middle);
     EXPECT_LT(glm::length(origin(vase) - way.middle), 0.06) << "it follows the hand";
     ASSERT_TRUE(wait_for_update());
-    const std::vector<double> under = lux(way.lit);
+    // A hurried answer may be of a place on the way there, where others want the processor too.
+    std::vector<double> under = lux(way.lit);
+    for (int k = 0; k < 60 && !(largest_change(before, under) > 0.2); ++k) {
+        QTest::qWait(500);
+        under = lux(way.lit);
+    }
     picture("vase_in_the_sun");
     EXPECT_GT(largest_change(before, under), 0.2) << "it stands in the sun: its shadow and its caustic fall on lit places";
     carry(vase, way.to);

@@ -20,7 +20,7 @@ if(TARGET atrium_ui)
     foreach(stage sunlit_room office)
       add_test(NAME ui_session_${stage}
                COMMAND ${XVFB_RUN} -a -s "-screen 0 1400x900x24" $<TARGET_FILE:ui_tests> --gtest_filter=*Session.*/${stage})
-      set_tests_properties(ui_session_${stage} PROPERTIES TIMEOUT 900 ENVIRONMENT "QT_QPA_PLATFORM=xcb;LC_ALL=C.UTF-8")
+      set_tests_properties(ui_session_${stage} PROPERTIES TIMEOUT 900 RUN_SERIAL TRUE ENVIRONMENT "QT_QPA_PLATFORM=xcb;LC_ALL=C.UTF-8")
     endforeach()
     # A file that is not there: a message and an exit status, not a picture of a message box.
     add_test(NAME screenshot_of_nothing COMMAND ${XVFB_RUN} -a $<TARGET_FILE:atrium> no/such/room.glb --screenshot nothing.png)
