@@ -4815,6 +4815,58 @@ Vérifiez que le nom du fichier est correct.</translation>
         <source>Scale</source>
         <translation>Échelle</translation>
     </message>
+    <message>
+        <source>Extent along the axes of the scene: X, Y (height), Z</source>
+        <translation>Étendue le long des axes de la scène : X, Y (hauteur), Z</translation>
+    </message>
+    <message>
+        <source>Size</source>
+        <translation>Taille</translation>
+    </message>
+    <message>
+        <source>Scene</source>
+        <translation>Scène</translation>
+    </message>
+    <message>
+        <source>Group</source>
+        <translation>Groupe</translation>
+    </message>
+    <message>
+        <source>Origin and axes of position and rotation: those of the scene, or those of the group that an object is in. Lengths are metres in both.</source>
+        <translation>Origine et axes de la position et de la rotation : ceux de la scène, ou ceux du groupe qui contient l&apos;objet. Les longueurs sont en mètres dans les deux cas.</translation>
+    </message>
+    <message>
+        <source>Measured from</source>
+        <translation>Repère</translation>
+    </message>
+    <message>
+        <source>Of the object, along its own axes; the scale of its groups comes on top</source>
+        <translation>De l&apos;objet, le long de ses propres axes ; l&apos;échelle de ses groupes s&apos;y ajoute</translation>
+    </message>
+    <message>
+        <source>Metres from the origin of the scene, along its axes; Y is up</source>
+        <translation>Mètres depuis l&apos;origine de la scène, le long de ses axes ; Y est la hauteur</translation>
+    </message>
+    <message>
+        <source>Metres from the origin of the group, along its axes</source>
+        <translation>Mètres depuis l&apos;origine du groupe, le long de ses axes</translation>
+    </message>
+    <message>
+        <source>Degrees about the axes of the scene</source>
+        <translation>Degrés autour des axes de la scène</translation>
+    </message>
+    <message>
+        <source>Degrees about the axes of the group</source>
+        <translation>Degrés autour des axes du groupe</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>aucune</translation>
+    </message>
+    <message>
+        <source>%1 x %2 x %3 m</source>
+        <translation>%1 x %2 x %3 m</translation>
+    </message>
 </context>
 <context>
     <name>atrium::ui::PolarDiagram</name>
