@@ -13,9 +13,12 @@
 // ATRIUM_node         on a node: visible, locked, caustics {show "automatic" | "mesh" | "texture", texel (edge, metres),
 //                     threshold (standard deviations)}: what was set by hand about caustics on its shape
 // ATRIUM_camera       on a camera: exposure (stops from automatic exposure); infinite (an orthographic camera without far
-// plane) ATRIUM_environment  on the root: skyRadiance [r,g,b] in cd/m2, the same from every direction ATRIUM_settings     on
-// the root: quality "draft" | "normal" | "fine", seed ATRIUM_solution     on the root of a .atrium file: bufferView,
-// encoding "zstd", byteLength (decoded), hash (FNV-1a 64 of the
+//                     plane)
+// ATRIUM_environment  on the root: skyRadiance [r,g,b] in cd/m2, the same from every direction
+// ATRIUM_settings     on the root: quality "draft" | "normal" | "fine", seed, thresholds (those of the solver that were set
+//                     by hand, see engine/scene/solver_thresholds.h)
+// ATRIUM_solution     on the root of a .atrium file: bufferView, encoding "zstd", byteLength (decoded), hash (FNV-1a 64 of
+// the
 //                     decoded bytes, 16 hexadecimal digits). Disposable: a file without it, or with a damaged one, still
 //                     opens.
 // Fields that hold their default are left out.

@@ -58,6 +58,12 @@ void read_environment(ReadContext& context) {
         if (const Json* seed = find(*settings, "seed")) {
             out.seed = std::uint32_t(whole(*seed, 0, 0xFFFFFFFF, kSettings));
         }
+        if (const Json* thresholds = find(*settings, "thresholds")) {
+            for (const ThresholdInfo& info : kThresholds) {
+                const auto value = float(number(*thresholds, info.key, 0.0, kSettings));
+                out.thresholds.*info.value = value > 0.0F ? std::clamp(value, info.least, info.most) : 0.0F;
+            }
+        }
     }
 }
 

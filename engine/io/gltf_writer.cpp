@@ -91,6 +91,11 @@ void write_root(WriteContext& context) {
     if (scene.settings.seed != usual.seed) {
         context.root["extensions"][kSettings]["seed"] = scene.settings.seed;
     }
+    for (const ThresholdInfo& info : kThresholds) {
+        if (const float value = scene.settings.thresholds.*info.value; value > 0.0F) {
+            context.root["extensions"][kSettings]["thresholds"][info.key] = short_number(value);
+        }
+    }
 }
 
 void write_solution(WriteContext& context, const std::vector<std::byte>& solution) {

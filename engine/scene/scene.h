@@ -7,6 +7,7 @@
 #include "engine/scene/light.h"
 #include "engine/scene/material.h"
 #include "engine/scene/shape.h"
+#include "engine/scene/solver_thresholds.h"
 
 #include <memory>
 #include <string>
@@ -48,6 +49,7 @@ struct SolverSettings {
     enum class Quality : std::uint8_t { Draft, Normal, Fine };
     Quality quality = Quality::Normal;
     std::uint32_t seed = 1;
+    SolverThresholds thresholds; ///< set by hand; all automatic at first
     friend bool operator==(const SolverSettings&, const SolverSettings&) = default;
 };
 

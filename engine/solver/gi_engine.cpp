@@ -119,6 +119,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     }
     statistics.triangles = s.rays->triangle_count();
     QualitySettings quality = quality_settings(options.quality, s.rays->bounds().diagonal(), options.target_error);
+    set_thresholds(quality, scene.settings.thresholds);
     quality.caustics.paper = options.paper_mode;
     statistics.mode = options.paper_mode ? "paper" : "default";
     if (options.particles > 0) {

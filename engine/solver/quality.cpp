@@ -1,8 +1,73 @@
 #include "engine/solver/quality.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace atrium {
+namespace {
+
+constexpr unsigned kFinestTexels = 12; ///< levels of a tile at most, see DirectMapSettings
+
+float texel_of(const QualitySettings& quality) { return quality.charts.tile_edge / float(1U << quality.maps.max_level); }
+
+/// The level whose texels are no larger than this, as far as there is one.
+unsigned level_of(float tile_edge, float texel) {
+    unsigned level = 0;
+    while (level < kFinestTexels && tile_edge / float(1U << level) > 1.0001F * texel) {
+        ++level;
+    }
+    return level;
+}
+
+} // namespace
+
+SolverThresholds thresholds_of(const QualitySettings& quality) {
+    SolverThresholds out;
+    out.element_edge = quality.hierarchy.smallest_patch;
+    out.link_share = quality.refine.flux_threshold;
+    out.leaf_contrast = quality.leaf_contrast;
+    out.mesh_edge = quality.layers.smallest_edge;
+    out.mesh_contrast = quality.layers.contrast;
+    out.shadow_texel = texel_of(quality);
+    out.reflected_rays = float(quality.field.reflected.rays);
+    out.particles = float(quality.particles);
+    out.caustic_dispersion = quality.caustics.least_dispersion;
+    return out;
+}
+
+void set_thresholds(QualitySettings& quality, const SolverThresholds& thresholds) {
+    const auto set = [&](float SolverThresholds::*which, const auto& write) {
+        const auto info = std::find_if(kThresholds.begin(), kThresholds.end(),
+                                       [which](const ThresholdInfo& one) { return one.value == which; });
+        if (const float value = thresholds.*which; value > 0.0F) {
+            write(std::clamp(value, info->least, info->most));
+        }
+    };
+    using T = SolverThresholds;
+    set(&T::element_edge, [&](float v) { quality.hierarchy.smallest_patch = v; });
+    set(&T::link_share, [&](float v) { quality.refine.flux_threshold = v; });
+    set(&T::leaf_contrast, [&](float v) { quality.leaf_contrast = v; });
+    set(&T::mesh_edge, [&](float v) {
+        quality.layers.smallest_edge = v;
+        quality.layers.base_edge = std::max(quality.layers.base_edge, v);
+        quality.first_layers.smallest_edge = std::max(quality.first_layers.smallest_edge, v);
+        quality.first_layers.base_edge = std::max(quality.first_layers.base_edge, v);
+        quality.caustics.mesh_edge = quality.layers.base_edge;
+    });
+    set(&T::mesh_contrast, [&](float v) { quality.layers.contrast = quality.first_layers.contrast = v; });
+    set(&T::shadow_texel, [&](float v) {
+        quality.maps.max_level = level_of(quality.charts.tile_edge, v);
+        quality.maps.first_level = std::min(quality.maps.first_level, quality.maps.max_level);
+        quality.first_maps.max_level = std::min(quality.first_maps.max_level, quality.maps.max_level);
+        quality.field.direct.spread = 0.5F * texel_of(quality);
+    });
+    set(&T::reflected_rays, [&](float v) {
+        quality.field.reflected.rays = std::bit_ceil(unsigned(std::lround(v)));
+        quality.field.reflected.max_rays = 4 * quality.field.reflected.rays;
+    });
+    set(&T::particles, [&](float v) { quality.particles = std::uint32_t(std::lround(v)); });
+    set(&T::caustic_dispersion, [&](float v) { quality.caustics.least_dispersion = v; });
+}
 
 const char* quality_name(SolverSettings::Quality quality) {
     static constexpr const char* kNames[] = {"draft", "normal", "fine"};

@@ -47,6 +47,11 @@ struct QualitySettings {
 /// the sampling of the quality by the square of the ratio.
 QualitySettings quality_settings(SolverSettings::Quality quality, float diagonal, double target_error);
 
+/// Those of its numbers that can be set by hand.
+SolverThresholds thresholds_of(const QualitySettings& quality);
+/// Sets those that are not automatic, and what goes with them. Others stay as the quality has them.
+void set_thresholds(QualitySettings& quality, const SolverThresholds& thresholds);
+
 const char* quality_name(SolverSettings::Quality quality);
 
 } // namespace atrium

@@ -4960,6 +4960,129 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
 </context>
 <context>
+    <name>atrium::ui::QualitySection</name>
+    <message>
+        <source>Quality</source>
+        <translation>Qualité</translation>
+    </message>
+    <message>
+        <source>Light quality</source>
+        <translation>Qualité de la lumière</translation>
+    </message>
+    <message>
+        <source>Draft: fast</source>
+        <translation>Brouillon : rapide</translation>
+    </message>
+    <message>
+        <source>Normal</source>
+        <translation>Normale</translation>
+    </message>
+    <message>
+        <source>Fine: slow</source>
+        <translation>Fine : lente</translation>
+    </message>
+    <message>
+        <source>One wish for everything: elements, links, rays, mesh, shadows, particles</source>
+        <translation>Un seul souhait pour tout : éléments, liens, rayons, maillage, ombres, particules</translation>
+    </message>
+    <message>
+        <source>What the wish stands for in this scene. Every threshold can be set by hand</source>
+        <translation>Ce que le souhait signifie dans cette scène. Chaque seuil peut être réglé à la main</translation>
+    </message>
+    <message>
+        <source>Reset to Automatic</source>
+        <translation>Revenir à l&apos;automatique</translation>
+    </message>
+    <message>
+        <source>Reset thresholds to automatic</source>
+        <translation>Remettre les seuils en automatique</translation>
+    </message>
+    <message>
+        <source>Element size</source>
+        <translation>Taille des éléments</translation>
+    </message>
+    <message>
+        <source>Elements of a surface are not divided whose longer edge is below twice this</source>
+        <translation>Les éléments d&apos;une surface dont le plus grand côté est inférieur au double ne sont pas divisés</translation>
+    </message>
+    <message>
+        <source>Link threshold</source>
+        <translation>Seuil des liens</translation>
+    </message>
+    <message>
+        <source>Share of the light in a room: what goes between two elements is looked at more closely until it is known this well</source>
+        <translation>Part de la lumière d&apos;une pièce : ce qui passe entre deux éléments est examiné de plus près jusqu&apos;à être connu aussi bien</translation>
+    </message>
+    <message>
+        <source>Element contrast</source>
+        <translation>Contraste des éléments</translation>
+    </message>
+    <message>
+        <source>Elements are divided on which reflected light differs by more than this</source>
+        <translation>Les éléments sur lesquels la lumière réfléchie varie davantage sont divisés</translation>
+    </message>
+    <message>
+        <source>Mesh edge</source>
+        <translation>Arête du maillage</translation>
+    </message>
+    <message>
+        <source>Edges of the shown mesh are not split below this</source>
+        <translation>Les arêtes du maillage affiché ne sont pas divisées en dessous</translation>
+    </message>
+    <message>
+        <source>Mesh contrast</source>
+        <translation>Contraste du maillage</translation>
+    </message>
+    <message>
+        <source>Edges of the shown mesh are split whose middle differs by more than this from what is between its ends</source>
+        <translation>Les arêtes du maillage affiché sont divisées quand leur milieu diffère davantage de la moyenne de leurs extrémités</translation>
+    </message>
+    <message>
+        <source>Shadow texel</source>
+        <translation>Texel d&apos;ombre</translation>
+    </message>
+    <message>
+        <source>How sharp edges of shadows become; taken to the next step of two</source>
+        <translation>Finesse des bords d&apos;ombre ; arrondie au pas de deux suivant</translation>
+    </message>
+    <message>
+        <source>Reflection rays</source>
+        <translation>Rayons de réflexion</translation>
+    </message>
+    <message>
+        <source>Rays of a first look round for reflected light; where they disagree up to four times as many</source>
+        <translation>Rayons d&apos;un premier tour d&apos;horizon pour la lumière réfléchie ; jusqu&apos;à quatre fois plus là où ils divergent</translation>
+    </message>
+    <message>
+        <source>Particles</source>
+        <translation>Particules</translation>
+    </message>
+    <message>
+        <source>Sent over mirrors and glass at most</source>
+        <translation>Émises au plus vers les miroirs et les verres</translation>
+    </message>
+    <message>
+        <source>Caustic threshold</source>
+        <translation>Seuil des caustiques</translation>
+    </message>
+    <message>
+        <source>Standard deviations by which light must be more uneven than chance to get a texture; surfaces may have their own in the caustic inspector</source>
+        <translation>Écarts types dont la lumière doit être plus inégale que le hasard pour recevoir une texture ; les surfaces peuvent avoir le leur dans l&apos;inspecteur de caustiques</translation>
+    </message>
+    <message>
+        <source>Thresholds: automatic</source>
+        <translation>Seuils : automatiques</translation>
+    </message>
+    <message numerus="yes">
+        <source>Thresholds: %n set by hand</source>
+        <translation><numerusform>Seuils : %n réglé à la main</numerusform><numerusform>Seuils : %n réglés à la main</numerusform></translation>
+    </message>
+    <message>
+        <source>automatic (%1)</source>
+        <translation>automatique (%1)</translation>
+    </message>
+</context>
+<context>
     <name>atrium::ui::RecoveryDialog</name>
     <message numerus="yes">
         <source>%1 and %n more</source>
@@ -5090,22 +5213,6 @@ Vérifiez que le nom du fichier est correct.</translation>
     <message>
         <source>Sky luminance</source>
         <translation>Luminance du ciel</translation>
-    </message>
-    <message>
-        <source>Light quality</source>
-        <translation>Qualité de la lumière</translation>
-    </message>
-    <message>
-        <source>Draft</source>
-        <translation>Ébauche</translation>
-    </message>
-    <message>
-        <source>Normal</source>
-        <translation>Normale</translation>
-    </message>
-    <message>
-        <source>Fine</source>
-        <translation>Fine</translation>
     </message>
     <message>
         <source>The scene is empty. The Add menu puts in shapes, lamps and cameras.</source>

@@ -127,6 +127,11 @@ Scene all_kinds_scene() {
     s.environment.sky_radiance = {100.0F, 120.5F, 200.0F};
     s.settings.quality = SolverSettings::Quality::Fine;
     s.settings.seed = 4000000000U;
+    float threshold = 0.03125F; // no number has to be rounded
+    for (const ThresholdInfo& info : kThresholds) {
+        s.settings.thresholds.*info.value = std::clamp(threshold, info.least, info.most);
+        threshold *= 2.0F;
+    }
     const std::vector<MaterialId> materials = add_materials(s);
 
     Light point;

@@ -2,6 +2,7 @@
 
 #include "ui/document/engine_text.h"
 #include "ui/panels/number_parse.h"
+#include "ui/panels/quality_section.h"
 
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -108,7 +109,7 @@ QString light_state_text(const EngineLink& engine) {
     return JobsPanel::tr("No light yet");
 }
 
-JobsPanel::JobsPanel(EngineLink& engine, QWidget* parent) : QWidget(parent), engine_(engine) {
+JobsPanel::JobsPanel(Document& document, EngineLink& engine, QWidget* parent) : QWidget(parent), engine_(engine) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(8, 8, 8, 8);
     auto* top = new QHBoxLayout;
@@ -136,6 +137,9 @@ JobsPanel::JobsPanel(EngineLink& engine, QWidget* parent) : QWidget(parent), eng
     below->addWidget(phase_, 1);
     below->addWidget(times_);
     layout->addLayout(below);
+    auto* quality = new QualitySection(document);
+    connect(quality, &Section::message, this, &JobsPanel::message);
+    layout->addWidget(quality);
     figures_ = new QTreeWidget;
     figures_->setColumnCount(2);
     figures_->setHeaderHidden(true);

@@ -23,7 +23,10 @@ QString light_state_text(const EngineLink& engine); ///< "Solving 45 %", "Up to 
 class JobsPanel : public QWidget {
     Q_OBJECT
 public:
-    explicit JobsPanel(EngineLink& engine, QWidget* parent = nullptr);
+    JobsPanel(Document& document, EngineLink& engine, QWidget* parent = nullptr);
+
+Q_SIGNALS:
+    void message(const QString& text);
 
 private:
     void refresh_status();

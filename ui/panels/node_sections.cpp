@@ -274,14 +274,6 @@ SceneSection::SceneSection(Document& document) : Section(tr("Scene"), document) 
             sky.sky_radiance = present > 0 ? sky.sky_radiance * (float(value) / present) : Rgb(float(value));
             return SceneEdit{SetEnvironment{sky}};
         });
-    add_choice(
-        tr("Light quality"), {tr("Draft"), tr("Normal"), tr("Fine")},
-        [this] { return std::vector<int>{int(scene().settings.quality)}; },
-        [this](int index) {
-            SolverSettings settings = scene().settings;
-            settings.quality = SolverSettings::Quality(index);
-            return SceneEdit{SetSolverSettings{settings}};
-        });
 }
 
 bool SceneSection::has_target() const { return document().selection()->nodes().empty(); }

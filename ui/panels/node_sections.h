@@ -38,7 +38,7 @@ private:
     QLabel* kind_ = nullptr;
 };
 
-/// Sky and solver quality; shown when nothing is selected.
+/// Sky; shown when nothing is selected.
 class SceneSection : public Section {
     Q_OBJECT
 public:

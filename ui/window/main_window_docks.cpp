@@ -34,7 +34,7 @@ void MainWindow::make_docks() {
     tree_ = new SceneTreePanel(document_);
     properties_ = new PropertiesPanel(document_);
     auto* problems = new ProblemsPanel(document_);
-    auto* jobs = new JobsPanel(*engine_);
+    auto* jobs = new JobsPanel(document_, *engine_);
     auto* tree_dock = dock("dock_tree", tr("Scene"), tree_, Qt::RightDockWidgetArea);
     auto* properties_dock = dock("dock_properties", tr("Properties"), properties_, Qt::RightDockWidgetArea);
     auto* problems_dock = dock("dock_problems", tr("Problems"), problems, Qt::RightDockWidgetArea);
@@ -64,6 +64,7 @@ void MainWindow::make_docks() {
         }
     });
 
+    connect(jobs, &JobsPanel::message, this, &MainWindow::say);
     connect(tree_, &SceneTreePanel::activated, this, [this] { viewport_->frame_selection(); });
     connect(tree_, &SceneTreePanel::message, this, &MainWindow::say);
     connect(problems, &ProblemsPanel::activated_node, this, [this] { viewport_->frame_selection(); });

@@ -1,0 +1,153 @@
+#include "ui/panels/quality_section.h"
+
+#include "engine/solver/quality.h"
+#include "ui/panels/quiet_combo.h"
+
+#include <QPushButton>
+#include <QToolButton>
+
+#include <algorithm>
+
+namespace atrium::ui {
+namespace {
+
+NumberFormat length_format() {
+    NumberFormat out = NumberFormat::length(0);
+    out.proportional = true;
+    out.step = 0.001;
+    return out;
+}
+
+NumberFormat percent_format(int decimals) {
+    NumberFormat out = NumberFormat::plain(0, 10, decimals, QStringLiteral(" %"));
+    out.display_factor = 100.0;
+    out.proportional = true;
+    out.step = 1e-6;
+    return out;
+}
+
+NumberFormat count_format(double step) {
+    NumberFormat out = NumberFormat::plain(0, 1e9, 0);
+    out.proportional = true;
+    out.step = step;
+    return out;
+}
+
+} // namespace
+
+QualitySection::QualitySection(Document& document) : Section(tr("Quality"), document) {
+    QComboBox* wish = add_choice(
+        tr("Light quality"), {tr("Draft: fast"), tr("Normal"), tr("Fine: slow")},
+        [this] { return std::vector<int>{int(scene().settings.quality)}; },
+        [this](int index) {
+            SolverSettings settings = scene().settings;
+            settings.quality = SolverSettings::Quality(index);
+            return SceneEdit{SetSolverSettings{settings}};
+        });
+    wish->setToolTip(tr("One wish for everything: elements, links, rays, mesh, shadows, particles"));
+    opener_ = new QToolButton;
+    opener_->setObjectName(QStringLiteral("thresholds"));
+    opener_->setCheckable(true);
+    opener_->setAutoRaise(true);
+    opener_->setArrowType(Qt::RightArrow);
+    opener_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    opener_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    opener_->setToolTip(tr("What the wish stands for in this scene. Every threshold can be set by hand"));
+    connect(opener_, &QToolButton::toggled, this, [this](bool on) {
+        opener_->setArrowType(on ? Qt::DownArrow : Qt::RightArrow);
+        refresh();
+    });
+    add_row(QString(), opener_);
+    add_thresholds();
+    reset_ = new QPushButton(tr("Reset to Automatic"));
+    reset_->setObjectName(QStringLiteral("thresholds_reset"));
+    connect(reset_, &QPushButton::clicked, this, [this] {
+        SolverSettings settings = scene().settings;
+        settings.thresholds = {};
+        apply(SceneEdit{SetSolverSettings{settings}}, tr("Reset thresholds to automatic"));
+    });
+    add_row(QString(), reset_, [this] { return open(); });
+    connect(&document, &Document::edited, this, [this] { refresh(); });
+    connect(&document, &Document::gesture_finished, this, [this] { refresh(); });
+    connect(&document, &Document::reset_done, this, [this] { refresh(); });
+    refresh();
+}
+
+void QualitySection::add_thresholds() {
+    using T = SolverThresholds;
+    const auto add = [this](float T::*value, const QString& label, const NumberFormat& format, const QString& hint) {
+        const auto info = std::find_if(kThresholds.begin(), kThresholds.end(),
+                                       [value](const ThresholdInfo& one) { return one.value == value; });
+        add_threshold(*info, label, format, hint);
+    };
+    add(&T::element_edge, tr("Element size"), length_format(),
+        tr("Elements of a surface are not divided whose longer edge is below twice this"));
+    add(&T::link_share, tr("Link threshold"), percent_format(4),
+        tr("Share of the light in a room: what goes between two elements is looked at more closely until it is known this "
+           "well"));
+    add(&T::leaf_contrast, tr("Element contrast"), percent_format(1),
+        tr("Elements are divided on which reflected light differs by more than this"));
+    add(&T::mesh_edge, tr("Mesh edge"), length_format(), tr("Edges of the shown mesh are not split below this"));
+    add(&T::mesh_contrast, tr("Mesh contrast"), percent_format(1),
+        tr("Edges of the shown mesh are split whose middle differs by more than this from what is between its ends"));
+    add(&T::shadow_texel, tr("Shadow texel"), length_format(),
+        tr("How sharp edges of shadows become; taken to the next step of two"));
+    add(&T::reflected_rays, tr("Reflection rays"), count_format(1),
+        tr("Rays of a first look round for reflected light; where they disagree up to four times as many"));
+    add(&T::particles, tr("Particles"), count_format(100), tr("Sent over mirrors and glass at most"));
+    add(&T::caustic_dispersion, tr("Caustic threshold"), NumberFormat::plain(0, 1e3, 2),
+        tr("Standard deviations by which light must be more uneven than chance to get a texture; surfaces may have their "
+           "own "
+           "in the caustic inspector"));
+}
+
+void QualitySection::add_threshold(const ThresholdInfo& info, const QString& label, const NumberFormat& format,
+                                   const QString& hint) {
+    NumberField* field = add_number(
+        label, format,
+        [this, &info] {
+            return open() ? std::vector<double>{double(scene().settings.thresholds.*info.value)} : std::vector<double>{};
+        },
+        [this, &info](double value) {
+            SolverSettings settings = scene().settings;
+            settings.thresholds.*info.value = value > 0.0 ? std::clamp(float(value), info.least, info.most) : 0.0F;
+            return SceneEdit{SetSolverSettings{settings}};
+        });
+    field->set_hint(hint);
+    fields_.emplace_back(&info, field);
+    formats_.push_back(format);
+}
+
+bool QualitySection::open() const { return opener_ != nullptr && opener_->isChecked(); }
+
+void QualitySection::refresh_more() {
+    const SolverThresholds& set = scene().settings.thresholds;
+    const auto by_hand = int(std::count_if(kThresholds.begin(), kThresholds.end(),
+                                           [&](const ThresholdInfo& info) { return set.*info.value > 0.0F; }));
+    opener_->setText(by_hand == 0 ? tr("Thresholds: automatic") : tr("Thresholds: %n set by hand", nullptr, by_hand));
+    reset_->setEnabled(by_hand > 0);
+    if (open()) {
+        show_automatic();
+    }
+}
+
+void QualitySection::show_automatic() {
+    if (!document().in_gesture()) { // the size of a scene is not found while one moves its objects
+        const DBox3 box = scene().bounds();
+        diagonal_ = box.empty() ? 0.0F : float(box.diagonal());
+    }
+    if (!(diagonal_ > 0.0F)) {
+        return;
+    }
+    const SolverThresholds automatic = thresholds_of(quality_settings(scene().settings.quality, diagonal_, 0.0));
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+        const auto& [info, field] = fields_[i];
+        const NumberFormat& format = formats_[i];
+        const double shown = double(automatic.*info->value) * format.display_factor;
+        const int decimals = shown >= 100 ? 0 : shown >= 1 ? 1 : format.decimals;
+        field->set_absent(0.0,
+                          tr("automatic (%1)").arg(QString::fromStdString(format_number(shown, decimals)) + format.suffix));
+    }
+}
+
+} // namespace atrium::ui
