@@ -377,6 +377,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         return stopped();
     }
     if (options.keep_for_updates) {
+        s.mirror_moved = false;
         s.live = std::make_unique<Impl::Live>();
         s.live->maps = std::move(live_maps);
         s.live->exchange = std::move(kept_exchange);

@@ -101,6 +101,8 @@ struct GiEngine::Impl {
     std::unique_ptr<MirrorLight> mirrors_before; ///< while a moved mirror's old light is taken away
     LightShafts mirror_shafts_before;
     LightShafts lamp_shafts, emitter_shafts, mirror_shafts, sky_shafts;
+    bool looks_back = false;   ///< RayScene::look_back() said so in the update at hand
+    bool mirror_moved = false; ///< since the complete solution
 
     // To be looked at; with `live` complete. Whoever shows it keeps it.
     std::shared_ptr<const Insides> tell_insides() {
@@ -112,30 +114,53 @@ struct GiEngine::Impl {
     // Direct light in parts, the sharpest and cheapest first; none that the scene does not have. `settings` must outlive it.
     [[nodiscard]] std::vector<DirectPart> direct_parts(const GatherSettings& settings) const {
         std::vector<DirectPart> parts;
+        const auto add = [this, &parts](DirectFunction light, const LightShafts& shafts) -> DirectPart& {
+            DirectPart& part = parts.emplace_back();
+            part.light = std::move(light);
+            part.touched = [&shafts](const vec3& p, float radius, const Box3& box) {
+                return shafts.touched(p, radius, box);
+            };
+            part.meets_moved = [this, &shafts](const SurfacePoint& p, std::span<const Box3> boxes, bool closely) {
+                return !looks_back || shafts.meets_moved(*rays, p, boxes, closely);
+            };
+            return parts.back();
+        };
         if (!punctual->lights().empty()) {
-            parts.push_back(DirectPart{
-                [&](const vec3& p, const vec3& n) { return still_lamps().lamps_irradiance(p, n, settings.sun_rays); }, false,
-                true, [this](const vec3& p, float radius, const Box3& box) { return lamp_shafts.touched(p, radius, box); }});
+            add([this, &settings](const vec3& p,
+                                  const vec3& n) { return still_lamps().lamps_irradiance(p, n, settings.sun_rays); },
+                lamp_shafts)
+                .sharp = true;
         }
         if (!emitters.empty()) {
-            parts.push_back(DirectPart{
-                [&](const vec3& p, const vec3& n) { return lamps->irradiance(p, n, settings); }, false, false,
-                [this](const vec3& p, float radius, const Box3& box) { return emitter_shafts.touched(p, radius, box); }});
+            add([this, &settings](const vec3& p, const vec3& n) { return lamps->irradiance(p, n, settings); },
+                emitter_shafts);
         }
         if (mirrors && (!punctual->lights().empty() || !emitters.empty())) {
-            parts.push_back(DirectPart{[&](const vec3& p, const vec3& n) {
-                                           return mirrors->irradiance(p, n, settings, &still_lamps(), lamps.get());
-                                       },
-                                       false, true,
-                                       [this](const vec3& p, float radius, const Box3& box) {
-                                           return mirror_shafts.touched(p, radius, box) ||
-                                                  mirror_shafts_before.touched(p, radius, box);
-                                       }});
+            DirectPart& part = add(
+                [this, &settings](const vec3& p, const vec3& n) {
+                    return mirrors->irradiance(p, n, settings, &still_lamps(), lamps.get());
+                },
+                mirror_shafts);
+            part.sharp = true;
+            part.straight = false;
+            for (const PlanarMirror& mirror : mirrors->mirrors().mirrors()) {
+                Box3& box = part.over.emplace_back();
+                for (const vec3& corner : mirror.corner) {
+                    box.add(corner);
+                }
+            }
+            part.touched = [this](const vec3& p, float radius, const Box3& box) {
+                return mirror_shafts.touched(p, radius, box) || mirror_shafts_before.touched(p, radius, box);
+            };
+            part.meets_moved = [this](const SurfacePoint& p, std::span<const Box3> boxes, bool closely) {
+                return !looks_back || mirror_moved || mirror_shafts.meets_moved(*rays, p, boxes, closely);
+            };
         }
         if (punctual->has_sky()) {
-            parts.push_back(DirectPart{
-                [&](const vec3& p, const vec3& n) { return punctual->sky_irradiance(p, n, settings.sky_rays); }, true, false,
-                [this](const vec3& p, float radius, const Box3& box) { return sky_shafts.touched(p, radius, box); }});
+            add([this, &settings](const vec3& p,
+                                  const vec3& n) { return punctual->sky_irradiance(p, n, settings.sky_rays); },
+                sky_shafts)
+                .soft = true;
         }
         return parts;
     }
@@ -163,6 +188,12 @@ struct GiEngine::Impl {
         return lamp_shafts.touched(point, radius, box) || emitter_shafts.touched(point, radius, box) ||
                (mirrors && mirror_shafts.touched(point, radius, box)) || mirror_shafts_before.touched(point, radius, box) ||
                sky_shafts.touched(point, radius, box);
+    }
+    // Where direct_light_touched(): it is not what it was when all was complete.
+    [[nodiscard]] bool direct_light_meets_moved(const SurfacePoint& p, std::span<const Box3> boxes, bool closely) const {
+        const auto any = [&](const LightShafts& shafts) { return shafts.meets_moved(*rays, p, boxes, closely); };
+        return !looks_back || mirror_moved || (live && live->lamps) || any(lamp_shafts) || any(emitter_shafts) ||
+               (mirrors && any(mirror_shafts)) || any(sky_shafts);
     }
     [[nodiscard]] DirectSample direct_light(const vec3& point, const vec3& normal, const GatherSettings& settings) const {
         DirectSample out = direct->irradiance(point, normal, settings);

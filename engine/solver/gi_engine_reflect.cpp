@@ -1,5 +1,6 @@
 // Reflected light that follows the hand: what leaves send on now, and what they see otherwise than before.
 #include "engine/base/parallel.h"
+#include "engine/base/rng.h"
 #include "engine/radiosity/leaf_surroundings.h"
 #include "engine/solver/gi_engine_impl.h"
 
@@ -19,7 +20,7 @@ struct ReflectEffort {
     int most_sweeps;
 };
 constexpr ReflectEffort kHurried{{64.0F, 1, 16}, {192.0F, 4, 160}, 0.015F, 2.0F, 4000, 0.01, 8};
-constexpr ReflectEffort kExact{{256.0F, 4, 64}, {512.0F, 8, 256}, 0.002F, 0.05F, 1U << 20, 1e-4, 60};
+constexpr ReflectEffort kExact{{256.0F, 4, 64}, {512.0F, 8, 256}, 0.002F, 0.4F, 1U << 20, 1e-4, 60};
 
 constexpr std::size_t kMostBodies = 4; // that are looked at singly
 
@@ -194,6 +195,20 @@ void GiEngine::light_leaves_again(Impl& s, const LightChange& change, const RunC
     Impl::Live& live = *s.live;
     const std::vector<std::uint32_t>& leaves = live.exchange->leaves();
     live.leaf_looked.resize(s.hierarchy.elements.size(), 0);
+    // From any of the places that its light is sampled at.
+    const auto meets_moved = [&](std::uint32_t leaf) {
+        const Element& e = s.hierarchy.elements[leaf];
+        const bool beside = std::any_of(change.boxes.begin(), change.boxes.end(), [&](const Box3& box) {
+            return distance_to(box, e.centre) <= live.quality.maps.cover_reach + e.radius;
+        });
+        for (unsigned k = 0, most = s.samples_of(e, live.quality); !beside && k < most; ++k) {
+            const vec2 u = sobol_owen2(k, 0, std::uint32_t(e.path));
+            if (s.direct_light_meets_moved(sample_point(s.hierarchy, *s.rays, leaf, u, false), change.boxes, change.exact)) {
+                return true;
+            }
+        }
+        return beside;
+    };
     parallel_chunks(leaves.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
             Element& e = s.hierarchy.elements[leaves[i]];
@@ -206,10 +221,11 @@ void GiEngine::light_leaves_again(Impl& s, const LightChange& change, const RunC
                 continue;
             }
             const std::uint32_t surface = e.kind == Element::Kind::Patch ? e.surface : s.hierarchy.faces[e.triangle].surface;
-            const bool reached =
+            const bool touched =
                 change.moved[surface] != 0 || std::any_of(change.boxes.begin(), change.boxes.end(), [&](const Box3& box) {
                     return s.direct_light_touched(e.centre, e.radius, box);
                 });
+            const bool reached = touched && (change.moved[surface] != 0 || meets_moved(leaves[i]));
             if (reached || live.leaf_looked[leaves[i]] != 0) {
                 (void)s.light_leaf(leaves[i], live.quality);
                 if (live.lamps) {
