@@ -350,10 +350,14 @@ void LightPart::spread_change(const std::vector<std::uint32_t>& asked, const std
         return cells_.nodes[n].irradiance - before[place[n]].irradiance;
     };
     const std::uint32_t finest = cells_.steps(repair_level_) - 1;
+    std::vector<std::uint8_t> changed(sheets_.sheets().size(), 0);
+    for (const std::uint32_t i : asked) {
+        changed[cells_.nodes[i].sheet] |= difference(i) != Rgb(0.0F) ? 1 : 0;
+    }
     parallel_chunks(cells_.nodes.size(), 1024, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context_->should_stop(); ++i) {
             LightNode& n = cells_.nodes[i];
-            if (((n.x | n.y) & finest) == 0 || !n.known()) {
+            if (changed[n.sheet] == 0 || ((n.x | n.y) & finest) == 0 || !n.known()) {
                 continue;
             }
             // The smallest cell of the coarse levels around it that was ever there.

@@ -19,7 +19,7 @@ struct ReflectEffort {
     double tolerance;
     int most_sweeps;
 };
-constexpr ReflectEffort kHurried{{64.0F, 1, 16}, {192.0F, 4, 160}, 0.015F, 2.0F, 4000, 0.01, 8};
+constexpr ReflectEffort kHurried{{64.0F, 1, 16}, {96.0F, 4, 96}, 0.015F, 2.0F, 4000, 0.01, 8};
 constexpr ReflectEffort kExact{{256.0F, 4, 64}, {512.0F, 8, 256}, 0.002F, 0.4F, 1U << 20, 1e-4, 60};
 
 constexpr std::size_t kMostBodies = 4; // that are looked at singly
