@@ -397,6 +397,9 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         shown->insides.reset();
         s.live->shown = std::move(shown);
         keep_question(s, scene, options);
+        if (s.live->exchange) { // while the finished picture is looked at, and not when the hand first moves
+            s.live->reflected = std::make_unique<ReflectedChange>(s.hierarchy, *s.rays, s.live->layers);
+        }
         impl_ = std::move(fresh);
     }
     context.progress("layers", 1.0);
