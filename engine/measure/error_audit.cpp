@@ -20,7 +20,7 @@ constexpr double kFarOff = 25.0;        // times the median of the squares
 constexpr std::size_t kAskedAgain = 16; // one place in so many at most
 constexpr std::uint64_t kMorePaths = 8; // times those of the first answer, at most
 constexpr double kFirstAnswer = 0.7;    // of all rays that the audit may take
-constexpr double kLeastBudget = 1e6;    // rays
+constexpr double kLeastBudget = 2e6;    // rays
 
 struct Comparison {
     std::vector<double> squares; ///< of the relative differences, less the reference's own variance

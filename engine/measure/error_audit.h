@@ -15,7 +15,7 @@ struct AuditSettings {
     std::size_t points = 512;
     std::uint64_t least_paths = 256; ///< of brute force per point
     std::uint64_t most_paths = 1024;
-    /// Beyond the least, as many rays as this share of those that the solution took, or a million where that is more;
+    /// Beyond the least, as many rays as this share of those that the solution took, or two million where that is more;
     /// seven tenths of them at all places, the rest at the few that are far off.
     double ray_share = 0.1;
     std::uint32_t seed = 1;

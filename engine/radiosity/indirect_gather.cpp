@@ -48,6 +48,7 @@ struct FurtherSample {
     float chance;   ///< decides whether there is such a ray at all
 };
 constexpr unsigned kMostBounces = 4;
+constexpr float kGenerous = 2.0F;       // times its share of the light: the chance of a further ray
 constexpr float kLeastSurvival = 0.25F; // leaves may know little of the light in narrow places
 
 std::vector<FurtherSample> further_samples() {
@@ -136,7 +137,7 @@ Rgb IndirectGather::sent_back(const Hit& hit, const Element& e, float travelled,
     // Where the leaf says that little would come of a further ray, beside what rays bring here, only some are shot and count
     // for more (Vorba & Krivanek 2016): nothing is lost on the whole, and most rays go where they matter.
     const float promise = sample.weight * luminance(e.rho * e.irradiance);
-    const float survival = sample.usual > 0.0F ? std::clamp(promise / sample.usual, kLeastSurvival, 1.0F) : 1.0F;
+    const float survival = sample.usual > 0.0F ? std::clamp(kGenerous * promise / sample.usual, kLeastSurvival, 1.0F) : 1.0F;
     const FurtherSample& further = further_sample(sample.index, sample.bounce);
     if (further.chance >= survival) {
         return own;
