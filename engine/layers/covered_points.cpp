@@ -9,10 +9,11 @@ bool is_covered(const RayScene& rays, const vec3& point, const vec3& normal, flo
     for (int i = 0; i < 9; ++i) { // straight out first: in the open one ray is enough
         const float angle = 2.0F * kPi * float(i) / 8.0F;
         const vec3 d = i == 0 ? normal : glm::normalize(0.35F * normal + std::cos(angle) * t + std::sin(angle) * b);
-        if (rays.occluded(point, point + d * reach)) {
+        // Where the way is free beyond the reach, one ray tells both that and where it ends.
+        const Hit hit = rays.nearest({point + normal * (0.01F * reach), d});
+        if (hit && hit.t <= reach && rays.occluded(point, point + d * reach)) {
             continue;
         }
-        const Hit hit = rays.nearest({point + normal * (0.01F * reach), d});
         if (!hit || hit.front || rays.surfaces()[hit.surface].back_side || rays.material(hit.surface).transmission > 0.0F) {
             return false;
         }

@@ -43,13 +43,20 @@ public:
     [[nodiscard]] FieldSample irradiance(const vec3& point, const vec3& normal, const IndirectSettings& settings) const;
 
 private:
-    /// Radiosity that arrives along the index-th ray, over mirrors and through glass; `distance` of the first hit, infinite
-    /// without one. `bounce` = 0 at the point that is asked for, where what stands out is gathered by name.
-    [[nodiscard]] Rgb along(const vec3& origin, const vec3& direction, std::uint32_t index, const IndirectSettings& settings,
-                            unsigned bounce, float& distance) const;
+    /// One of the rays that are summed up.
+    struct Sample {
+        std::uint32_t index = 0; ///< of its numbers
+        unsigned bounce = 0;     ///< 0 at the point that is asked for, where what stands out is gathered by name
+        float weight = 1.0F;     ///< share of what it brings that counts
+        float usual = 0.0F;      ///< what a ray brings, luminance, by those before it; 0 = not known yet
+    };
+    /// Radiosity that arrives along a ray, over mirrors and through glass; `distance` of the first hit, infinite without
+    /// one.
+    [[nodiscard]] Rgb along(const vec3& origin, const vec3& direction, const Sample& sample,
+                            const IndirectSettings& settings, float& distance) const;
     /// Radiosity of a leaf where a ray of length `travelled` ends on it.
-    [[nodiscard]] Rgb sent_back(const Hit& hit, const Element& leaf, float travelled, std::uint32_t index,
-                                const IndirectSettings& settings, unsigned bounce) const;
+    [[nodiscard]] Rgb sent_back(const Hit& hit, const Element& leaf, float travelled, const Sample& sample,
+                                const IndirectSettings& settings) const;
 
     const Hierarchy& h_;
     const RayScene& rays_;
