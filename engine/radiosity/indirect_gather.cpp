@@ -83,9 +83,9 @@ Hierarchy tree_of(const Hierarchy& solved, const LeafFlags& bright) {
 } // namespace
 
 IndirectGather::IndirectGather(const Hierarchy& solved, const RayScene& rays, LeafFlags bright, DirectAtHit direct,
-                               const Rgb& sky, const MirrorLight* mirrors)
+                               const Rgb& sky, const MirrorLight* mirrors, CarriedByParticles carried)
     : h_(solved), rays_(rays), bright_(std::move(bright)), direct_(std::move(direct)), sky_(sky), mirrors_(mirrors),
-      bright_tree_(tree_of(solved, bright_)), bright_gather_(bright_tree_, rays),
+      carried_(std::move(carried)), bright_tree_(tree_of(solved, bright_)), bright_gather_(bright_tree_, rays),
       offset_(std::clamp(1e-5F * rays.bounds().diagonal(), 1e-6F, 1e-3F)), directions_(cosine_directions()) {}
 
 Rgb IndirectGather::along(const vec3& origin, const vec3& direction, const Sample& sample, const IndirectSettings& settings,
@@ -97,6 +97,7 @@ Rgb IndirectGather::along(const vec3& origin, const vec3& direction, const Sampl
     way.ray = {origin, direction};
     way.seed = sample.index; // the same choices along one direction everywhere: neighbours err alike
     bool imaged = false;     // the way is one that mirror images carry for what stands out
+    Hit over;                // what bent the ray last
     for (unsigned met = 0; met < kMostSurfaces; ++met) {
         const Hit hit = rays_.nearest(way.ray);
         if (!hit) {
@@ -110,7 +111,9 @@ Rgb IndirectGather::along(const vec3& origin, const vec3& direction, const Sampl
             // What stands out is looked for by name, straight and over flat mirrors.
             const bool by_name = sample.bounce == 0 && bright_[leaf] != 0 &&
                                  (way.bends == 0 ? !too_near(e, origin, settings.bright.nearest) : imaged);
-            if (!by_name) {
+            const bool by_particles =
+                sample.bounce == 0 && way.bends > 0 && !settings.all_light && carried_ && carried_(leaf, over, way.bends);
+            if (!by_name && !by_particles) {
                 sum += way.through * sent_back(hit, e, travelled, sample, settings);
             }
         }
@@ -120,6 +123,7 @@ Rgb IndirectGather::along(const vec3& origin, const vec3& direction, const Sampl
         }
         if (way.bends > bends) {
             imaged = way.bends == 1 && mirrors_ != nullptr && mirrors_->carries(hit);
+            over = hit;
         }
     }
     return sum;

@@ -231,7 +231,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         s.reflected = std::make_unique<IndirectGather>(
             s.hierarchy, *s.rays, bright_leaves(s.hierarchy, s.hierarchy.room, quality.bright_contrast),
             [&s](const Hit& hit, Rgb& light) { return s.mapped_light(hit, light); }, scene.environment.sky_radiance,
-            s.mirrors.get());
+            s.mirrors.get(), s.carried_by_particles());
         CacheSettings cache_settings = field.cache;
         cache_settings.light_floor = light_floor;
         IrradianceCache cache(
@@ -368,6 +368,10 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         }
     }
     s.solved = true;
+    timer.next("particles");
+    if (!s.trace_matt_particles(quality, options.seed, context)) {
+        return stopped();
+    }
     context.progress("layers", 0.6);
     LayerSettings final_layers = quality.layers;
     final_layers.keep_places = options.keep_for_updates;
@@ -423,6 +427,7 @@ SensorReading GiEngine::gather_free(const dvec3& point, const dvec3& normal) con
         g->max_cut *= 4;
         g->tolerance *= 0.25F;
     }
+    field.reflected.all_light = true;
     field.reflected.rays *= 8;
     field.reflected.max_rays *= 8;
     const vec3 at(point - impl_->rays->origin());

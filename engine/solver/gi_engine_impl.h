@@ -213,7 +213,8 @@ struct GiEngine::Impl {
     [[nodiscard]] std::unique_ptr<IndirectGather> gather_reflected() const {
         return std::make_unique<IndirectGather>(
             hierarchy, *rays, bright_leaves(hierarchy, hierarchy.room, live->quality.bright_contrast),
-            [this](const Hit& hit, Rgb& light) { return mapped_light(hit, light); }, sky_radiance, mirrors.get());
+            [this](const Hit& hit, Rgb& light) { return mapped_light(hit, light); }, sky_radiance, mirrors.get(),
+            carried_by_particles());
     }
 
     // Direct light at a point of a charted surface, from its map.
@@ -366,9 +367,7 @@ struct GiEngine::Impl {
         const auto element = std::uint32_t(&e - hierarchy.elements.data());
         for (std::uint32_t i = 0; map && i < kSamples; ++i) {
             const vec2 u = sobol_owen2(i, 0, std::uint32_t(e.path));
-            const vec3 from_corner = sample_point(hierarchy, *rays, element, u, false).position - chart.origin;
-            const vec2 at(glm::dot(from_corner, chart.axis_u), glm::dot(from_corner, chart.axis_v));
-            const Rgb light = map->irradiance(vec2(float(chart.tile_u), float(chart.tile_v)) + at / chart.scale);
+            const Rgb light = map->irradiance(place_on(chart, sample_point(hierarchy, *rays, element, u, false).position));
             sum += light;
             sum2 += double(luminance(light)) * luminance(light);
         }
@@ -440,6 +439,28 @@ struct GiEngine::Impl {
         return particles->complete();
     }
 
+    [[nodiscard]] ParticleScene particle_scene(const DirectLight& lights) const {
+        return {*rays,     *targets, lights, emitters, [this](const Hit& hit) { return mirrors && mirrors->carries(hit); },
+                &hierarchy};
+    }
+
+    // Coordinates of a point of a flat chart in chart space.
+    [[nodiscard]] static vec2 place_on(const Chart& chart, const vec3& position) {
+        const vec3 from_corner = position - chart.origin;
+        const vec2 at(glm::dot(from_corner, chart.axis_u), glm::dot(from_corner, chart.axis_v));
+        return vec2(float(chart.tile_u), float(chart.tile_v)) + at / chart.scale;
+    }
+
+    // Images of matt surfaces (matt_images.cpp). Once it is known how bright these are: particles of those that stand out;
+    // false when stopped. The leaves' exchange has this light too: it is only shown in another way.
+    bool trace_matt_particles(const QualitySettings& quality, std::uint32_t seed, const RunContext& context);
+    // What leaves send point by point as far as their light maps tell: shadows on a panel are seen in its image.
+    [[nodiscard]] MattDetail matt_detail(const std::vector<std::uint32_t>& leaves) const;
+    // What the hemisphere leaves to particles of matt surfaces; empty where there are none.
+    [[nodiscard]] CarriedByParticles carried_by_particles() const;
+    // Images become as bright as the surfaces are now; with `live`. What of the leaves' light they show.
+    MattLight brighten_images(double tolerance) const;
+
     // What particles brought joins the light of the leaves that they landed on.
     void light_leaves_by_particles() {
         if (!particles) {
@@ -449,6 +470,9 @@ struct GiEngine::Impl {
             e.caustic = Rgb(0.0F);
         }
         for (const Landing& l : particles->landings()) {
+            if (particles->matt(particles->links()[l.link])) {
+                continue; // the exchange has it
+            }
             const std::uint32_t leaf = hierarchy.leaf_at(l.surface, l.triangle, l.back, l.barycentric);
             if (leaf != Element::kNone) {
                 hierarchy.elements[leaf].caustic += particles->power(l) / hierarchy.elements[leaf].area;

@@ -22,6 +22,10 @@ struct ReflectEffort {
 constexpr ReflectEffort kHurried{{64.0F, 1, 16}, {96.0F, 4, 96}, 0.015F, 2.0F, 4000, 0.01, 8};
 constexpr ReflectEffort kExact{{256.0F, 4, 64}, {512.0F, 8, 256}, 0.002F, 0.4F, 1U << 20, 1e-4, 60};
 
+// Changes of what matt surfaces send that their images do not show, relative.
+constexpr double kHurriedImages = 0.05;
+constexpr double kExactImages = 0.002;
+
 constexpr std::size_t kMostBodies = 4; // that are looked at singly
 
 // What moved and stands elsewhere than before; of many surfaces the bounds of all together.
@@ -53,8 +57,9 @@ Rgb GiEngine::sent_back(const Impl& s, const Hit& hit) {
 }
 
 // Leaves of what moved, and of what something lay or lies on, look around anew; all others only towards where it is and was.
+// `carried` = of the light that changed sight makes, per leaf, what particles bring; empty where there is none.
 std::vector<Rgb> GiEngine::solve_with_new_sight(Impl& s, const SightChange& sight, bool in_a_hurry,
-                                                const RunContext& context) {
+                                                std::vector<Rgb>& carried, const RunContext& context) {
     Impl::Live& live = *s.live;
     const ReflectEffort& effort = in_a_hurry ? kHurried : kExact;
     const float reach = live.quality.maps.cover_reach;
@@ -79,7 +84,14 @@ std::vector<Rgb> GiEngine::solve_with_new_sight(Impl& s, const SightChange& sigh
     if (context.should_stop()) {
         return {};
     }
-    return solve_with_changed_sight(s.hierarchy, *live.exchange, rows, effort.tolerance, effort.most_sweeps, context);
+    std::vector<Rgb> beside =
+        solve_with_changed_sight(s.hierarchy, *live.exchange, rows, effort.tolerance, effort.most_sweeps, context);
+    if (!rows.carried.empty()) {
+        for (std::size_t i = 0; i < beside.size(); ++i) {
+            carried.push_back(rows.carried_light(s.hierarchy, live.exchange->leaves(), i));
+        }
+    }
+    return beside;
 }
 
 // Vertices that see something of what moved look for themselves; those that see much, and those on it, gather all anew,
@@ -249,14 +261,15 @@ void GiEngine::reflect_change(Impl& s, bool in_a_hurry, const RunContext& contex
         for (const auto& [surface, d] : live.displaced) {
             moved[surface] = 1;
         }
-        sight = std::make_unique<SightChange>(s.hierarchy, *s.rays, bodies_of(live.displaced), moved);
+        sight =
+            std::make_unique<SightChange>(s.hierarchy, *s.rays, bodies_of(live.displaced), moved, s.carried_by_particles());
     }
-    std::vector<Rgb> beside;
+    std::vector<Rgb> beside, carried;
     std::vector<std::vector<VertexChange>> known;
+    const ReflectEffort& effort = in_a_hurry ? kHurried : kExact;
     if (sight) {
-        beside = solve_with_new_sight(s, *sight, in_a_hurry, context);
+        beside = solve_with_new_sight(s, *sight, in_a_hurry, carried, context);
     } else {
-        const ReflectEffort& effort = in_a_hurry ? kHurried : kExact;
         solve_radiosity(s.hierarchy, *live.exchange, effort.tolerance, effort.most_sweeps, context);
     }
     std::vector<Rgb> beside_of_elements;
@@ -266,13 +279,18 @@ void GiEngine::reflect_change(Impl& s, bool in_a_hurry, const RunContext& contex
             beside_of_elements[leaves[i]] = beside[i];
         }
     }
+    MattLight images = s.brighten_images(in_a_hurry ? kHurriedImages : kExactImages);
+    for (std::size_t i = 0; i < carried.size(); ++i) {
+        images.now[leaves[i]] += carried[i];
+        beside_of_elements[leaves[i]] -= carried[i];
+    }
     if (sight && !context.should_stop()) {
         known = look_from_vertices(s, *sight, in_a_hurry, context);
     }
     if (context.should_stop()) {
         return;
     }
-    live.reflected->add_to(s.hierarchy, beside_of_elements, known, live.layers.surfaces);
+    live.reflected->add_to(s.hierarchy, beside_of_elements, known, live.layers.surfaces, images);
 }
 
 } // namespace atrium

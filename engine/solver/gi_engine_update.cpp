@@ -431,9 +431,8 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         context.progress("particles", 0.4);
         timer.next("particles");
     }
-    const auto new_textures = trace_again(s, scene, moves, report, context);
-    if (!new_textures) {
-        return context.should_stop() ? tl::unexpected(new_textures.error()) : give_up(new_textures.error().what);
+    if (const auto traced = trace_again(s, scene, moves, report, context); !traced) {
+        return context.should_stop() ? tl::unexpected(traced.error()) : give_up(traced.error().what);
     }
     if (live.exchange) {
         context.progress("gather", 0.6);
@@ -456,9 +455,10 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
             return fail("", "", "stopped before the light had followed", "The next update goes on");
         }
     }
-    if (s.particles && (moves || !new_textures->empty())) {
+    const std::vector<std::uint32_t> new_textures = surfaces_with_new_caustics(s);
+    if (s.particles && (moves || !new_textures.empty())) {
         timer.next("caustics");
-        const CausticReuse reuse{s.caustics, *new_textures};
+        const CausticReuse reuse{s.caustics, new_textures};
         CausticLight light =
             build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse, s.wishes, context);
         if (context.should_stop()) {
@@ -474,7 +474,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     if (context.should_stop()) {
         return fail("", "", "stopped before the light had followed", "The next update goes on");
     }
-    if (s.particles && (moves || !new_textures->empty()) &&
+    if (s.particles && (moves || !new_textures.empty()) &&
         !attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics, context)) {
         return fail("", "", "stopped before the light had followed", "The next update goes on");
     }
