@@ -4,6 +4,7 @@
 #include "engine/particles/particle_map.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace atrium {
@@ -13,6 +14,7 @@ constexpr double kLeastFlux = 1e-4;     // towards a target, of all light that f
 constexpr std::size_t kMostLinks = 512; // that are looked at, the strongest
 constexpr double kLeastEffect = 0.02;   // of a link's light, of all light where it lands
 constexpr double kWholeEffect = 0.25;   // from which a link is worth its full share of the particles
+constexpr double kLeastLandings = 2000.0;
 
 std::vector<ParticleSource> matt_sources(const ParticleScene& scene, std::span<const std::uint8_t> flags) {
     const Hierarchy& h = *scene.matt;
@@ -99,6 +101,39 @@ double effect_of(const std::vector<std::pair<std::uint32_t, double>>& landed, co
     return all > 0.0 ? sum / all : 0.0;
 }
 
+struct Candidate {
+    ParticleLink link;
+    double worth;  // share of its particles that it is to have
+    double landed; // landings of one particle, mean
+};
+
+// Particles by what links bring. Those that would leave too few landings for a smooth image are not worth any, the
+// hemisphere does better: the weakest goes until there is none.
+std::vector<ParticleLink> share_out_matt(std::vector<Candidate> candidates, std::uint32_t particles) {
+    while (!candidates.empty()) {
+        double all = 0.0;
+        for (const Candidate& c : candidates) {
+            all += c.link.landed;
+        }
+        auto weakest = candidates.begin();
+        double fewest = std::numeric_limits<double>::infinity();
+        for (auto c = candidates.begin(); c != candidates.end(); ++c) {
+            c->link.count = std::uint32_t(std::lround(particles * c->worth * c->link.landed / all));
+            if (const double landings = c->link.count * c->landed; landings < fewest) {
+                fewest = landings;
+                weakest = c;
+            }
+        }
+        if (fewest >= kLeastLandings) {
+            break;
+        }
+        candidates.erase(weakest);
+    }
+    std::vector<ParticleLink> out;
+    std::transform(candidates.begin(), candidates.end(), std::back_inserter(out), [](const Candidate& c) { return c.link; });
+    return out;
+}
+
 } // namespace
 
 bool ParticleMap::add_matt(const ParticleScene& scene, const MattSettings& settings, const RunContext& context) {
@@ -128,21 +163,15 @@ bool ParticleMap::add_matt(const ParticleScene& scene, const MattSettings& setti
             }
         }
     }
-    double all = 0.0;
-    std::vector<double> effect(links.size());
+    std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < links.size(); ++i) {
-        effect[i] = effect_of(landed[i], h, 0.05 * received.mean);
-        all += effect[i] >= kLeastEffect ? links[i].landed : 0.0;
-    }
-    std::vector<ParticleLink> kept;
-    for (std::size_t i = 0; i < links.size(); ++i) {
-        ParticleLink& l = links[i];
-        if (effect[i] >= kLeastEffect) {
-            const double worth = std::min(effect[i] / kWholeEffect, 1.0);
-            l.count = std::max(l.count, std::uint32_t(std::lround(settings.particles * worth * worth * l.landed / all)));
-            kept.push_back(l);
+        const double effect = effect_of(landed[i], h, 0.05 * received.mean);
+        const double worth = std::min(effect / kWholeEffect, 1.0);
+        if (effect >= kLeastEffect) {
+            candidates.push_back({links[i], worth * worth, double(landed[i].size()) / links[i].count});
         }
     }
+    std::vector<ParticleLink> kept = share_out_matt(std::move(candidates), settings.particles);
     if (context.should_stop() || kept.empty()) {
         return !context.should_stop();
     }
