@@ -73,6 +73,7 @@ private:
             auto& view = window_.viewport();
             view.inspect_element({point.x() * view.width(), point.y() * view.height()});
         }
+        window_.viewport().refine_now();
         const bool saved = window_.grab().save(file_);
         if (!saved) {
             QTextStream(stderr) << QObject::tr("%1: the picture could not be written").arg(file_) << '\n';
