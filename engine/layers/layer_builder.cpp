@@ -218,7 +218,8 @@ private:
     }
 
     [[nodiscard]] bool covered(const LightVertex& v, const vec3& n) const {
-        return is_covered(rays_, sample_position(v, n), n, settings_.cover_reach);
+        const vec3 p = sample_position(v, n);
+        return is_covered(rays_, p, n, settings_.cover_reach) || is_cut_off(rays_, p, n, settings_.cover_reach);
     }
 
     // The field may have got finer since a vertex was sampled.

@@ -112,7 +112,8 @@ void GiEngine::cover_vertices(Impl& s, const RunContext& context) {
                                                             [&](const Box3& box) { return distance_to(box, p) <= reach; }));
                     if (near) {
                         const auto bit = std::uint8_t(back ? 2U * VertexPlaces::kCovered : VertexPlaces::kCovered);
-                        const bool covered = is_covered(*s.rays, p, side[v].normal, reach);
+                        const bool covered =
+                            is_covered(*s.rays, p, side[v].normal, reach) || is_cut_off(*s.rays, p, side[v].normal, reach);
                         places.state[v] = std::uint8_t(covered ? places.state[v] | bit : places.state[v] & ~bit);
                     }
                 }
