@@ -60,7 +60,10 @@ private:
         if (taken_) {
             return;
         }
-        if (window_.false_color_bar().fitting() || window_.viewport().inspector().busy()) {
+        const auto& shown = window_.viewport();
+        const bool uploading = shown.caustic_view() == atrium::ui::CausticView::Texture &&
+                               shown.shown_solution() != window_.engine().solution();
+        if (uploading || window_.false_color_bar().fitting() || shown.inspector().busy()) {
             QTimer::singleShot(500, this, [this] { take(); });
             return;
         }

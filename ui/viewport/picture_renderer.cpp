@@ -82,7 +82,7 @@ void PictureRenderer::paint(const FrameInput& in) {
     from.exposure = in.exposure;
     from.cutaway = in.view.cutaway();
     from.shares = in.shares;
-    const bool large = in.refine && (!software_ || unhurried_ || picture_milliseconds_ < kVeryQuick);
+    const bool large = in.refine && (!software_ || unhurried_);
     const int samples = large || (software_ && !in.refine) ? 0 : kSamples;
     const bool resized = picture_width_ != in.width || picture_height_ != in.height;
     const bool better = !picture_refined_ && (large || samples > picture_samples_);

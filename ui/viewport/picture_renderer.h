@@ -90,10 +90,9 @@ private:
     void draw_plates(const FrameInput& in);
 
     static constexpr unsigned kProbeFaces = 6;
-    /// Milliseconds of a picture without smoothed edges on a software rasteriser, below which it is smoothed at rest, and
-    /// below which it is drawn at twice the size for that, four times the work.
+    /// Milliseconds of a picture without smoothed edges on a software rasteriser, below which it is smoothed at rest: by
+    /// several samples a pixel, for at twice the size it would take four times as long.
     static constexpr double kQuickEnough = 150.0;
-    static constexpr double kVeryQuick = 40.0;
     Gl* gl_ = nullptr;
     GpuScene gpu_;
     SceneFigures figures_;
