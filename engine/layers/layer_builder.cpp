@@ -225,7 +225,7 @@ private:
     // What is open may be narrower than samples are moved: what is covered there may be open close to the vertex.
     void find_cover(LightVertex& v) const {
         const auto covered = [&](const vec3& n) {
-            return is_covered(rays_, sample_position(v, n), n, settings_.cover_reach);
+            return is_out_of_sight(rays_, sample_position(v, n), n, settings_.cover_reach);
         };
         v.front_covered = covered(v.normal);
         v.back_covered = v.wants_back && covered(-v.normal);
@@ -265,7 +265,9 @@ private:
         borders_.resize(meshes_.size());
         std::vector<SurfacePoint> points;
         const auto place = [&](const LightVertex& v, const vec3& n) { return sample_position(v, n); };
-        const auto covered_at = [&](const vec3& p, const vec3& n) { return is_covered(rays_, p, n, settings_.cover_reach); };
+        const auto covered_at = [&](const vec3& p, const vec3& n) {
+            return is_out_of_sight(rays_, p, n, settings_.cover_reach);
+        };
         for (std::size_t m = 0; m < meshes_.size(); ++m) {
             for (const bool back : {false, true}) {
                 borders_[m][back ? 1 : 0] = find_borders(meshes_[m], {back}, place, covered_at, context_);

@@ -368,6 +368,7 @@ struct EngineSession::Impl {
         out.preparing = scheduler.preparing();
         out.settling = scheduler.unsettled() || (latest != nullptr && latest->statistics.update.degraded);
         out.posted_revision = posted_revision;
+        out.light_revision = light_revision;
         if (latest != nullptr) {
             // Edits since then that leave light alone leave the picture true.
             out.shown_revision = latest_revision >= light_revision ? posted_revision : latest_revision;
@@ -463,7 +464,7 @@ std::shared_ptr<const Solution> EngineSession::latest() const {
 }
 EngineSession::Shown EngineSession::shown() const {
     const std::lock_guard lock(impl_->mutex);
-    return {impl_->latest, impl_->error};
+    return {impl_->latest, impl_->error, impl_->latest_revision};
 }
 SessionStatus EngineSession::status() const { return impl_->status(); }
 

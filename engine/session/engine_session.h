@@ -18,6 +18,7 @@ struct SessionStatus {
     State state = State::Idle;
     std::uint64_t posted_revision = 0; ///< newest edit in the mailbox or applied
     std::uint64_t shown_revision = 0;  ///< of latest(); lower = the picture is stale
+    std::uint64_t light_revision = 0;  ///< newest posted edit that changed light; what came after it left light alone
     bool moving = false;               ///< latest() follows a hand in a hurry
     bool settling = false;             ///< latest() was made in a hurry, and better light is still to come
     bool refining = false;             ///< latest() is an exact update; the full solution is still to come
@@ -78,6 +79,9 @@ public:
     struct Shown {
         std::shared_ptr<const Solution> solution;
         std::shared_ptr<const LocalError> error;
+        /// Of the scene that it is the light of; it follows all that was posted once this is not below
+        /// SessionStatus::light_revision. A stored solution counts as of the scene it was loaded with.
+        std::uint64_t revision = 0;
     };
     [[nodiscard]] Shown shown() const;
     [[nodiscard]] SessionStatus status() const;

@@ -112,7 +112,7 @@ void GiEngine::cover_vertices(Impl& s, const RunContext& context) {
                                                             [&](const Box3& box) { return distance_to(box, p) <= reach; }));
                     if (near) {
                         const auto bit = std::uint8_t(back ? 2U * VertexPlaces::kCovered : VertexPlaces::kCovered);
-                        const bool covered = is_covered(*s.rays, p, side[v].normal, reach);
+                        const bool covered = is_out_of_sight(*s.rays, p, side[v].normal, reach);
                         places.state[v] = std::uint16_t(covered ? places.state[v] | bit : places.state[v] & ~bit);
                     }
                 }

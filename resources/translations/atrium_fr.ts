@@ -771,6 +771,14 @@
         <source>Move and turn along the axes of the object instead of those of the world</source>
         <translation>Déplacer et tourner selon les axes de l&apos;objet au lieu de ceux du monde</translation>
     </message>
+    <message>
+        <source>&amp;Octree of Particles</source>
+        <translation>&amp;Octree des particules</translation>
+    </message>
+    <message>
+        <source>Draw the cells of the octree that finds the particles near the selected object when it moves</source>
+        <translation>Dessiner les cellules de l&apos;octree qui trouve les particules proches de l&apos;objet sélectionné quand il se déplace</translation>
+    </message>
 </context>
 <context>
     <name>Caustics</name>
@@ -1872,6 +1880,22 @@ subdivision</translation>
 1/m²</source>
         <translation>Densité des liens
 1/m²</translation>
+    </message>
+    <message>
+        <source>Select an object to see the octree around it</source>
+        <translation>Sélectionnez un objet pour voir l&apos;octree qui l&apos;entoure</translation>
+    </message>
+    <message>
+        <source>Octree: the selection has no surfaces in the light</source>
+        <translation>Octree : la sélection n&apos;a pas de surface dans la lumière</translation>
+    </message>
+    <message>
+        <source>Octree: %1 cells around the selection, blue to red by particles</source>
+        <translation>Octree : %1 cellules autour de la sélection, du bleu au rouge selon les particules</translation>
+    </message>
+    <message>
+        <source>%1 of %2 particles cross its bounds and would be sent anew by a move</source>
+        <translation>%1 particules sur %2 traversent son enveloppe et seraient émises de nouveau par un déplacement</translation>
     </message>
 </context>
 <context>
@@ -4814,6 +4838,58 @@ Vérifiez que le nom du fichier est correct.</translation>
     <message>
         <source>Scale</source>
         <translation>Échelle</translation>
+    </message>
+    <message>
+        <source>Extent along the axes of the scene: X, Y (height), Z</source>
+        <translation>Étendue le long des axes de la scène : X, Y (hauteur), Z</translation>
+    </message>
+    <message>
+        <source>Size</source>
+        <translation>Taille</translation>
+    </message>
+    <message>
+        <source>Scene</source>
+        <translation>Scène</translation>
+    </message>
+    <message>
+        <source>Group</source>
+        <translation>Groupe</translation>
+    </message>
+    <message>
+        <source>Origin and axes of position and rotation: those of the scene, or those of the group that an object is in. Lengths are metres in both.</source>
+        <translation>Origine et axes de la position et de la rotation : ceux de la scène, ou ceux du groupe qui contient l&apos;objet. Les longueurs sont en mètres dans les deux cas.</translation>
+    </message>
+    <message>
+        <source>Measured from</source>
+        <translation>Repère</translation>
+    </message>
+    <message>
+        <source>Of the object, along its own axes; the scale of its groups comes on top</source>
+        <translation>De l&apos;objet, le long de ses propres axes ; l&apos;échelle de ses groupes s&apos;y ajoute</translation>
+    </message>
+    <message>
+        <source>Metres from the origin of the scene, along its axes; Y is up</source>
+        <translation>Mètres depuis l&apos;origine de la scène, le long de ses axes ; Y est la hauteur</translation>
+    </message>
+    <message>
+        <source>Metres from the origin of the group, along its axes</source>
+        <translation>Mètres depuis l&apos;origine du groupe, le long de ses axes</translation>
+    </message>
+    <message>
+        <source>Degrees about the axes of the scene</source>
+        <translation>Degrés autour des axes de la scène</translation>
+    </message>
+    <message>
+        <source>Degrees about the axes of the group</source>
+        <translation>Degrés autour des axes du groupe</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>aucune</translation>
+    </message>
+    <message>
+        <source>%1 x %2 x %3 m</source>
+        <translation>%1 x %2 x %3 m</translation>
     </message>
 </context>
 <context>

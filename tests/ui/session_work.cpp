@@ -91,16 +91,13 @@ void SessionWork::picture(const char* name) {
 }
 
 bool SessionWork::wait_for_light() {
-    return QTest::qWaitFor([this] { return window->engine().solution() && !window->engine().stale(); }, kLightMs);
+    return QTest::qWaitFor([this] { return !window->engine().stale(); }, kLightMs);
 }
 
 bool SessionWork::wait_for_update() {
+    settle(); // moves of the mouse that wait for a turn of the event loop become edits
     return QTest::qWaitFor(
-        [this] {
-            const SessionStatus now = window->engine().status();
-            return now.shown_revision == now.posted_revision && window->viewport().shown_solution() &&
-                   window->viewport().shown_solution() == window->engine().solution();
-        },
+        [this] { return window->engine().follows() && window->viewport().shown_solution() == window->engine().solution(); },
         kLightMs);
 }
 

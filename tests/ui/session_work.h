@@ -43,7 +43,7 @@ protected:
     void picture(const char* name);
     /// Complete light of the present scene.
     bool wait_for_light();
-    /// Light that has followed the last edit, in a hurry or not.
+    /// The light in the picture is of the scene as it is now, made in a hurry or not.
     bool wait_for_update();
     void keys(Qt::Key key, Qt::KeyboardModifiers held = {});
     /// Finds an entry in the library by its name and drags it over the view, press to release, by Qt's own drag and drop.

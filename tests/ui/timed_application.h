@@ -12,12 +12,14 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace atrium::ui {
 
 /// Counts the processor time of this thread, not the clock on the wall: the solver's threads and other programs may hold the
-/// cores. Painting is kept apart: on a machine that draws in software it is the rasteriser's time. UI thread only.
+/// cores. Painting is kept apart, also where it happens within another event (a drag that Qt drives itself): on a machine
+/// that draws in software it is the rasteriser's time. UI thread only.
 class TimedApplication : public QApplication {
 public:
     using QApplication::QApplication;
@@ -31,10 +33,12 @@ public:
         const bool top = depth_ == 0 || level > level_;
         const int outer_level = level_;
         const double outer_inner = inner_;
+        const double outer_painted = painted_;
         const bool outer_news = top_is_news_;
         if (top) {
             level_ = level;
             inner_ = 0.0;
+            painted_ = 0.0;
         }
         const QEvent::Type type = event->type();
         const bool link = std::string_view(receiver->metaObject()->className()) == "atrium::ui::EngineLink";
@@ -43,20 +47,27 @@ public:
             name += ' ' + own.toStdString();
         }
         const bool painting = type == QEvent::Paint || type == QEvent::UpdateRequest || type == QEvent::Expose;
+        const bool in_painting = std::exchange(in_painting_, in_painting_ || painting);
         if (top) {
             top_is_news_ = type == QEvent::MetaCall && link;
         } else if (type == QEvent::Paint && top_is_news_) {
             ++paints_on_news_;
         }
         const double before = processor_ms();
+        const double began = clock_ms(CLOCK_MONOTONIC);
         ++depth_;
         const bool done = QApplication::notify(receiver, event);
         --depth_;
         const double all = processor_ms() - before;
-        const double ms = all - inner_;
+        const double ms = all - inner_ - (painting ? 0.0 : painted_);
+        if (!top && painting && !in_painting) {
+            painted_ += all;
+        }
+        in_painting_ = in_painting;
         if (top) {
             level_ = outer_level;
             inner_ = outer_inner + all;
+            painted_ = outer_painted;
             top_is_news_ = depth_ > 0 ? outer_news : top_is_news_;
         }
         if (top && on_) {
@@ -64,7 +75,8 @@ public:
                 worst_[(painting ? "painting " : "") + name + " " + QMetaEnum::fromType<QEvent::Type>().valueToKey(type)];
             worst = std::max(worst, ms);
             if (ms > kStallMs) {
-                stalls_.push_back({activity_, name, QMetaEnum::fromType<QEvent::Type>().valueToKey(type), ms, painting});
+                stalls_.push_back({activity_, name, QMetaEnum::fromType<QEvent::Type>().valueToKey(type), ms,
+                                   clock_ms(CLOCK_MONOTONIC) - began, began, painting});
             }
         }
         return done;
@@ -74,7 +86,9 @@ public:
         std::string activity; ///< what the test was doing
         std::string receiver;
         std::string event;
-        double ms = 0; ///< of this thread's processor
+        double ms = 0;      ///< of this thread's processor, without what inner loops handled
+        double wall_ms = 0; ///< from its begin to its end, whoever had the processor
+        double began = 0;   ///< milliseconds of the monotonic clock, as in a profile
         bool painting = false;
     };
     static constexpr double kStallMs = 16.0;
@@ -99,14 +113,17 @@ public:
     }
 
 private:
-    static double processor_ms() {
+    static double clock_ms(clockid_t clock) {
         timespec now{};
-        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+        clock_gettime(clock, &now);
         return double(now.tv_sec) * 1e3 + double(now.tv_nsec) * 1e-6;
     }
+    static double processor_ms() { return clock_ms(CLOCK_THREAD_CPUTIME_ID); }
     int depth_ = 0;
-    int level_ = 0;      ///< of the loop that the outermost timed event came from
-    double inner_ = 0.0; ///< milliseconds of events of inner loops within the present one
+    int level_ = 0;        ///< of the loop that the outermost timed event came from
+    double inner_ = 0.0;   ///< milliseconds of events of inner loops within the present one
+    double painted_ = 0.0; ///< and of painting within it
+    bool in_painting_ = false;
     bool on_ = false;
     bool top_is_news_ = false;
     int paints_on_news_ = 0;

@@ -294,13 +294,19 @@ TEST_F(Session, EditsThatLeaveLightAloneKeepThePictureTrue) {
     session->post(rename("globe"), 2, false);
     EXPECT_EQ(session->status().state, State::Idle);
     EXPECT_EQ(session->status().shown_revision, 2U);
+    EXPECT_EQ(session->status().light_revision, 1U);
+    EXPECT_EQ(session->shown().revision, 1U);
     session->post(move(1), 3, false);
     EXPECT_EQ(session->status().shown_revision, 1U);
+    EXPECT_EQ(session->status().light_revision, 3U);
+    EXPECT_EQ(session->shown().revision, 1U) << "of the scene before";
     solver.call(2);
     session->post(rename("sphere"), 4, false); // does not stop it
     solver.order(Order::Finish);
     EXPECT_EQ(wait_for(State::Idle).shown_revision, 4U);
     EXPECT_EQ(session->latest()->revision, 3U);
+    EXPECT_EQ(session->shown().revision, 3U);
+    EXPECT_EQ(session->status().light_revision, 3U);
     EXPECT_EQ(solver.calls(), 2U);
     EXPECT_EQ(solver.stopped(), 0);
 }

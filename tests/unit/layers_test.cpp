@@ -292,6 +292,34 @@ TEST(Layers, LightBesideAFootIsThatOfTheReference) {
     EXPECT_LT(std::abs(mean), 0.06);
 }
 
+TEST(Layers, ALegThatSinksIntoTheFloorHasTheLightOfTheRoom) {
+    Scene scene;
+    add_room(scene, 4, 3, 4, add_material(scene, 0.6F));
+    // Its end lies 2 mm below the floor, under a sky a hundred times as bright as the room.
+    const double sunk = 0.002;
+    const NodeId leg =
+        add_node(scene, "leg", Cylinder{0.01F, 0.09F, true}, {2.0, 0.045 - sunk, 2.0}, add_material(scene, 0.5F));
+    add_point_light(scene, {2.0, 2.5, 2.0}, 2000.0);
+    scene.environment.sky_radiance = Rgb(20000.0F);
+    GiEngine engine;
+    const auto solution = engine.solve(scene, {}, {});
+    ASSERT_TRUE(solution);
+    int ends = 0;
+    for (const auto& layer : (*solution)->surfaces) {
+        for (std::size_t v = 0; layer->node == leg && v < layer->mesh->positions.size(); ++v) {
+            const bool side = std::abs(layer->mesh->normals[v].y) < 0.5F;
+            if (side) {
+                const double light = luminance(light_on(*layer, v));
+                const float height = layer->mesh->positions[v].y;
+                ends += height < -0.0449F ? 1 : 0;
+                EXPECT_GT(light, 10.0) << height;
+                EXPECT_LT(light, 1000.0) << height << ": light from under the floor";
+            }
+        }
+    }
+    EXPECT_GT(ends, 8) << "vertices of its end";
+}
+
 TEST(Layers, VertexBudgetIsKept) {
     Scene scene;
     add_room(scene, 4, 2.5F, 3, add_material(scene, 0.6F));

@@ -35,14 +35,17 @@ std::shared_ptr<const Solution> EngineLink::solution() const { return shown_; }
 
 SessionStatus EngineLink::status() const { return session_->status(); }
 
-bool EngineLink::stale() const {
-    const SessionStatus now = session_->status();
-    return !shown_ || !shown_->final || now.shown_revision < now.posted_revision;
+bool EngineLink::stale() const { return !follows() || !shown_->final; }
+
+bool EngineLink::follows() const {
+    // Not by SessionStatus::shown_revision: that is of an answer which may still be on its way to this thread.
+    return !load_pending_ && shown_ && shown_revision_ >= session_->status().light_revision;
 }
 
 void EngineLink::load(std::shared_ptr<const Solution> stored) {
     load_pending_ = false;
     shown_ = stored;
+    shown_revision_ = document_.revision();
     error_.reset();
     session_->load(document_.scene(), document_.revision(), std::move(stored));
     Q_EMIT solution_changed();
@@ -85,6 +88,7 @@ void EngineLink::on_wake() {
     if (load_pending_) {
         return; // still about the document before
     }
+    shown_revision_ = newest.revision;
     if (newest.solution != shown_) {
         shown_ = std::move(newest.solution);
         error_ = std::move(newest.error);

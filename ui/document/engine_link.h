@@ -20,7 +20,9 @@ public:
 
     [[nodiscard]] std::shared_ptr<const Solution> solution() const; ///< newest; may be null or stale
     [[nodiscard]] SessionStatus status() const;
-    [[nodiscard]] bool stale() const;                  ///< the picture is older than the document's light
+    [[nodiscard]] bool stale() const; ///< solution() is older than the document's light, or coarse
+    /// solution(), complete or made in a hurry, is of the document as it is now: no edit of light came after it.
+    [[nodiscard]] bool follows() const;
     void load(std::shared_ptr<const Solution> stored); ///< after Document::reset
     /// What follows edits of stored light is made in the background (EngineSession::prepare()); after load().
     void prepare();
@@ -42,6 +44,7 @@ private:
     bool load_pending_ = true; ///< the document was replaced and the session does not have it yet
     std::atomic<bool> wake_queued_{false};
     std::shared_ptr<const Solution> shown_;
+    std::uint64_t shown_revision_ = 0;        ///< of the document that shown_ is the light of
     std::shared_ptr<const LocalError> error_; ///< of shown_
     std::unique_ptr<EngineSession> session_;
 };

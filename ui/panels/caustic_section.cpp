@@ -43,7 +43,7 @@ CausticSection::CausticSection(Document& document) : Section(tr("Set by hand"), 
         tr("Threshold"), NumberFormat::plain(0, 1e6, 2),
         [each] { return each([](const CausticWish& w) { return double(w.threshold); }); },
         [this](double value) { return write([value](CausticWish& w) { w.threshold = float(value); }); });
-    threshold_->setToolTip(tr("Standard deviations by which light must be more uneven than chance to get a texture"));
+    threshold_->set_hint(tr("Standard deviations by which light must be more uneven than chance to get a texture"));
     reset_ = new QPushButton(tr("Reset to Automatic"));
     reset_->setObjectName(QStringLiteral("caustic_reset"));
     connect(reset_, &QPushButton::clicked, this,

@@ -13,19 +13,6 @@ namespace atrium::ui {
 
 namespace {
 
-dquat rotation_from(const dvec3& degrees) {
-    return glm::normalize(
-        dquat(dvec3(radians_from_degrees(degrees.x), radians_from_degrees(degrees.y), radians_from_degrees(degrees.z))));
-}
-
-/// The same turn; q and -q are one.
-bool same_rotation(const dquat& a, const dquat& b) { return std::abs(glm::dot(a, b)) > 1 - 1e-12; }
-
-double tidy(double degrees) {
-    const double rounded = std::round(degrees * 1e9) / 1e9;
-    return rounded == 0 ? 0 : rounded; // no minus zero
-}
-
 /// Value of a field of each target whose geometry is of type G.
 template <class G, class Get>
 std::vector<double> read_geometry(const Scene& scene, const std::vector<ShapeId>& shapes, Get get) {
@@ -134,58 +121,6 @@ void NodeSection::refresh_more() {
     if (!name_->hasFocus() || !name_->isModified()) {
         name_->setText(name);
     }
-}
-
-PlacementSection::PlacementSection(Document& document) : Section(tr("Placement"), document) {
-    const auto each = [this](const std::function<dvec3(NodeId, const Transform&)>& get) {
-        std::vector<dvec3> values;
-        for (const NodeId id : Section::document().selection()->nodes()) {
-            values.push_back(get(id, scene().nodes.find(id)->transform));
-        }
-        return values;
-    };
-    add_vector(
-        tr("Position"), NumberFormat::length(),
-        [each] { return each([](NodeId, const Transform& t) { return t.translation; }); },
-        [this](int axis, double value) { return write([=](Transform& t, NodeId) { t.translation[axis] = value; }); });
-    add_vector(
-        tr("Rotation"), NumberFormat::angle(),
-        [this, each] { return each([this](NodeId id, const Transform& t) { return euler_of(id, t.rotation); }); },
-        [this](int axis, double value) {
-            return write([this, axis, value](Transform& t, NodeId id) {
-                dvec3 angles = euler_of(id, t.rotation);
-                angles[axis] = value;
-                t.rotation = rotation_from(angles);
-                typed_for_ = id;
-                typed_ = angles;
-            });
-        });
-    NumberFormat scale = NumberFormat::plain(-1e6, 1e6, 4);
-    scale.step = 0.05;
-    add_vector(
-        tr("Scale"), scale, [each] { return each([](NodeId, const Transform& t) { return t.scale; }); },
-        [this](int axis, double value) { return write([=](Transform& t, NodeId) { t.scale[axis] = value; }); });
-}
-
-bool PlacementSection::has_target() const { return !document().selection()->nodes().empty(); }
-
-dvec3 PlacementSection::euler_of(NodeId id, const dquat& rotation) const {
-    if (id == typed_for_ && same_rotation(rotation_from(typed_), rotation)) {
-        return typed_;
-    }
-    const dvec3 radians = glm::eulerAngles(rotation);
-    return {tidy(degrees_from_radians(radians.x)), tidy(degrees_from_radians(radians.y)),
-            tidy(degrees_from_radians(radians.z))};
-}
-
-SceneEdit PlacementSection::write(const std::function<void(Transform&, NodeId)>& change) const {
-    std::vector<SceneEdit> edits;
-    for (const NodeId id : document().selection()->nodes()) {
-        Transform transform = scene().nodes.find(id)->transform;
-        change(transform, id);
-        edits.push_back(SceneEdit{SetTransform{id, transform}});
-    }
-    return as_one(std::move(edits));
 }
 
 ShapeSection::ShapeSection(Document& document) : Section(tr("Shape"), document) {

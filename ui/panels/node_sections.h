@@ -1,4 +1,4 @@
-// Sections of the properties panel for nodes: name and state, placement, shape, and the scene when nothing is selected.
+// Sections of the properties panel for nodes: name and state, shape, and the scene when nothing is selected.
 #pragma once
 
 #include "ui/panels/section.h"
@@ -21,23 +21,6 @@ protected:
 private:
     QLineEdit* name_ = nullptr;
     QLabel* count_ = nullptr;
-};
-
-/// Translation, rotation as Euler angles, scale; in the parent's space.
-class PlacementSection : public Section {
-    Q_OBJECT
-public:
-    explicit PlacementSection(Document& document);
-
-protected:
-    bool has_target() const override;
-
-private:
-    /// Angles in degrees (x, then y, then z about fixed axes). Keeps what was typed as long as it gives that rotation.
-    dvec3 euler_of(NodeId id, const dquat& rotation) const;
-    SceneEdit write(const std::function<void(Transform&, NodeId)>& change) const;
-    mutable NodeId typed_for_;
-    mutable dvec3 typed_{0.0};
 };
 
 /// Parameters of the shape: sizes, radii, caps.

@@ -14,6 +14,7 @@ namespace atrium::ui {
 namespace {
 constexpr int kBurstPauseMs = 500; // wheel notches closer than this are one undo entry
 constexpr double kPixelsPerStep = 8.0;
+constexpr int kTextMargins = 10; ///< frame and margins of the text, both sides
 } // namespace
 
 NumberFormat NumberFormat::length(double minimum) {
@@ -35,7 +36,7 @@ NumberField::NumberField(NumberFormat format, QWidget* parent) : QLineEdit(paren
     connect(this, &QLineEdit::textEdited, this, [this] {
         typing_ = true;
         setProperty("refused", false);
-        setToolTip({});
+        show_tip();
     });
     show_value();
 }
@@ -80,12 +81,50 @@ void NumberField::attach_label(QLabel* label) {
     label->installEventFilter(this);
 }
 
+void NumberField::set_hint(const QString& hint) {
+    if (hint != hint_) {
+        hint_ = hint;
+        show_tip();
+    }
+}
+
+QString NumberField::text_of(double value, int decimals) const {
+    return QString::fromStdString(format_number(value * format_.display_factor, decimals)) + format_.suffix;
+}
+
+int NumberField::fitting_decimals(double value) const {
+    if (!testAttribute(Qt::WA_WState_Created) && !isVisible()) {
+        return format_.decimals; // has no place yet
+    }
+    const int room = width() - kTextMargins;
+    int decimals = format_.decimals;
+    while (decimals > 0 && fontMetrics().horizontalAdvance(text_of(value, decimals)) > room) {
+        --decimals;
+    }
+    return decimals;
+}
+
+void NumberField::resizeEvent(QResizeEvent* event) {
+    QLineEdit::resizeEvent(event);
+    if (!typing_) {
+        show_value();
+    }
+}
+
+void NumberField::show_tip() {
+    if (property("refused").toBool()) {
+        return; // the problem stays until something is typed
+    }
+    const bool whole = mixed_ || typing_ || shown_decimals_ == format_.decimals;
+    const QString number = whole ? QString() : text_of(value_, format_.decimals);
+    setToolTip(number.isEmpty() || hint_.isEmpty() ? number + hint_ : number + QLatin1Char('\n') + hint_);
+}
+
 void NumberField::show_value() {
     const bool absent = !mixed_ && absent_ && value_ == *absent_;
-    const QString text =
-        mixed_ || absent
-            ? QString()
-            : QString::fromStdString(format_number(value_ * format_.display_factor, format_.decimals)) + format_.suffix;
+    shown_decimals_ = mixed_ || absent ? format_.decimals : fitting_decimals(value_);
+    const QString text = mixed_ || absent ? QString() : text_of(value_, shown_decimals_);
+    show_tip();
     setPlaceholderText(mixed_ ? tr("mixed") : absent ? absent_text_ : QString());
     if (text != this->text()) {
         setText(text);
@@ -117,20 +156,14 @@ bool NumberField::commit_text() {
     }
     const double value = *parsed / format_.display_factor;
     if (value < format_.minimum || value > format_.maximum) {
-        const auto shown = [this](double limit) {
-            return QString::fromStdString(format_number(limit * format_.display_factor, format_.decimals)) + format_.suffix;
-        };
-        show_problem(
-            tr("Not changed: the value must lie between %1 and %2.").arg(shown(format_.minimum), shown(format_.maximum)));
+        show_problem(tr("Not changed: the value must lie between %1 and %2.")
+                         .arg(text_of(format_.minimum, format_.decimals), text_of(format_.maximum, format_.decimals)));
         return false;
     }
     typing_ = false;
-    setToolTip({});
     // What is shown is rounded: typing the same text again must not round the value behind it.
-    const std::string typed = format_number(value * format_.display_factor, format_.decimals);
-    const bool same =
-        !mixed_ && (value == value_ || (typed == format_number(value_ * format_.display_factor, format_.decimals) &&
-                                        std::abs(value - value_) < 0.51 * std::pow(10.0, -format_.decimals)));
+    const bool same = !mixed_ && (value == value_ || (text_of(value, format_.decimals) == text_of(value_, shown_decimals_) &&
+                                                      std::abs(value - value_) < 0.51 * std::pow(10.0, -shown_decimals_)));
     if (!same) {
         value_ = value;
         mixed_ = false;
@@ -169,6 +202,7 @@ void NumberField::focusOutEvent(QFocusEvent* event) {
     }
     if (!commit_text()) {
         typing_ = false;
+        setProperty("refused", false);
         show_value();
     }
 }
@@ -188,7 +222,7 @@ void NumberField::keyPressEvent(QKeyEvent* event) {
             end_burst(false);
         }
         typing_ = false;
-        setToolTip({});
+        setProperty("refused", false);
         show_value();
         selectAll();
         event->accept();

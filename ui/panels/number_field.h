@@ -40,6 +40,9 @@ public:
     void set_suffix(const QString& suffix, const UnitSet& units);
     /// `value` stands for "none": it is shown as a pale `text`, and an empty entry means it.
     void set_absent(double value, const QString& text);
+    /// What the number is about; the tool tip whenever there is no problem to be told. Before it stands the whole number
+    /// where the field is too narrow for all of its decimals.
+    void set_hint(const QString& hint);
     [[nodiscard]] double value() const { return value_; }
     [[nodiscard]] bool mixed() const { return mixed_; }
     /// Dragging `label` sideways changes the value; Shift is ten times finer.
@@ -58,11 +61,16 @@ protected:
     void focusOutEvent(QFocusEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
     void wheelEvent(QWheelEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override; ///< as many decimals as there is room for
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
     bool commit_text(); ///< false when the text is refused
     void show_value();
+    [[nodiscard]] QString text_of(double value, int decimals) const;
+    /// Decimals that fit into the field: those of the format, or fewer.
+    [[nodiscard]] int fitting_decimals(double value) const;
+    void show_tip();
     void show_problem(const QString& why);
     void step_by(double steps);
     void begin_burst();
@@ -73,6 +81,8 @@ private:
     bool mixed_ = false;
     std::optional<double> absent_;
     QString absent_text_;
+    QString hint_;
+    int shown_decimals_ = 0; ///< of the text
     bool typing_ = false;
     bool burst_ = false; ///< a wheel burst or label drag is open
     QTimer burst_end_;

@@ -3,6 +3,7 @@
 #include "ui/panels/light_sections.h"
 #include "ui/panels/material_section.h"
 #include "ui/panels/node_sections.h"
+#include "ui/panels/placement_section.h"
 
 #include <QVBoxLayout>
 

@@ -17,6 +17,8 @@ namespace atrium::ui {
 
 namespace {
 
+constexpr int kVectorLabel = 62; ///< of rows with three fields, which stand below each other
+
 template <class T> bool all_equal(const std::vector<T>& values) {
     return std::all_of(values.begin(), values.end(), [&](const T& v) { return v == values.front(); });
 }
@@ -146,14 +148,19 @@ NumberField* Section::add_number(const QString& label, const NumberFormat& forma
     return field;
 }
 
-void Section::add_vector(const QString& label, const NumberFormat& format, std::function<std::vector<dvec3>()> read,
-                         std::function<SceneEdit(int, double)> write) {
+std::array<NumberField*, 3> Section::add_vector(const QString& label, const NumberFormat& format,
+                                                std::function<std::vector<dvec3>()> read,
+                                                std::function<SceneEdit(int, double)> write) {
     static const char* const kAxes[] = {"X", "Y", "Z"};
     auto* row = new QWidget;
+    row->setAccessibleName(label);
     auto* layout = new QHBoxLayout(row);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(4);
-    NumberField* fields[3] = {};
+    auto* head = new QLabel(label);
+    head->setMinimumWidth(kVectorLabel);
+    layout->addWidget(head);
+    std::array<NumberField*, 3> fields{};
     for (int axis = 0; axis < 3; ++axis) {
         const QString letter = QLatin1StringView(kAxes[axis]);
         auto* title = new QLabel(letter);
@@ -164,15 +171,15 @@ void Section::add_vector(const QString& label, const NumberFormat& format, std::
         layout->addWidget(title);
         layout->addWidget(field, 1);
         bind(field, label, [write, axis](double value) { return write(axis, value); });
-        fields[axis] = field;
+        fields[std::size_t(axis)] = field;
     }
-    QLabel* title = place(label, row);
-    refreshers_.push_back([row, title, x = fields[0], y = fields[1], z = fields[2], read = std::move(read)] {
+    head->setBuddy(fields[0]);
+    grid_->addWidget(row, grid_->rowCount(), 0, 1, 2);
+    refreshers_.push_back([row, fields, read = std::move(read)] {
         const std::vector<dvec3> values = read();
         row->setVisible(!values.empty());
-        title->setVisible(!values.empty());
         int axis = 0;
-        for (NumberField* field : {x, y, z}) {
+        for (NumberField* field : fields) {
             std::vector<double> parts;
             for (const dvec3& value : values) {
                 parts.push_back(value[axis]);
@@ -183,6 +190,7 @@ void Section::add_vector(const QString& label, const NumberFormat& format, std::
             ++axis;
         }
     });
+    return fields;
 }
 
 ColorButton* Section::add_color(const QString& label, Colors read, WriteColor write) {

@@ -7,6 +7,7 @@
 
 #include <QWidget>
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -46,9 +47,10 @@ protected:
     const Scene& scene() const { return document_.scene(); }
 
     NumberField* add_number(const QString& label, const NumberFormat& format, Numbers read, WriteNumber write);
-    /// Three fields in one row, for x, y and z.
-    void add_vector(const QString& label, const NumberFormat& format, std::function<std::vector<dvec3>()> read,
-                    std::function<SceneEdit(int axis, double value)> write);
+    /// Three fields in one row, for x, y and z; they share the whole width of the panel with their label.
+    std::array<NumberField*, 3> add_vector(const QString& label, const NumberFormat& format,
+                                           std::function<std::vector<dvec3>()> read,
+                                           std::function<SceneEdit(int axis, double value)> write);
     ColorButton* add_color(const QString& label, Colors read, WriteColor write);
     QCheckBox* add_check(const QString& label, std::function<std::vector<bool>()> read,
                          std::function<SceneEdit(bool)> write);
