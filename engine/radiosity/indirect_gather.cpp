@@ -139,12 +139,13 @@ Rgb IndirectGather::sent_back(const Hit& hit, const Element& e, float travelled,
     }
     const Rgb own = e.emitted + e.rho * ((known ? direct : e.direct) + e.caustic);
     // Where the leaf says that little would come of a further ray, beside what rays bring here, only some are shot and count
-    // for more (Vorba & Krivanek 2016): nothing is lost on the whole, and most rays go where they matter.
+    // for more (Vorba & Krivanek 2016), as far as they differ from the leaf's word: nothing is lost on the whole, and most
+    // rays go where they matter.
     const float promise = sample.weight * luminance(e.rho * e.irradiance);
     const float survival = sample.usual > 0.0F ? std::clamp(kGenerous * promise / sample.usual, kLeastSurvival, 1.0F) : 1.0F;
     const FurtherSample& further = further_sample(sample.index, sample.bounce);
     if (further.chance >= survival) {
-        return own;
+        return own + e.rho * e.irradiance;
     }
     // The direction belongs to that of the first ray: neighbours err alike.
     const vec3 normal = hit.front ? hit.geometric_normal : -hit.geometric_normal;
@@ -152,7 +153,7 @@ Rgb IndirectGather::sent_back(const Hit& hit, const Element& e, float travelled,
     float distance = 0.0F;
     const Rgb reflected =
         along(hit_position(rays_, hit) + normal * offset_, turned(further.direction, normal), next, settings, distance);
-    return own + e.rho * reflected / survival;
+    return own + e.rho * (e.irradiance + (reflected - e.irradiance) / survival);
 }
 
 FieldSample IndirectGather::irradiance(const vec3& point, const vec3& normal, const IndirectSettings& settings) const {
@@ -207,7 +208,8 @@ FieldSample IndirectGather::irradiance(const vec3& point, const vec3& normal, co
         const double variance = kStratified * std::max(light2 / n - mean * mean, 0.0) / n;
         const double level = settings.tolerance * (mean + luminance(out.irradiance));
         if (done * 2 > std::min<std::size_t>(settings.max_rays, kMostRays) || variance <= level * level) {
-            out.irradiance += sum / float(done);
+            out.irradiance +=
+                glm::max(sum / float(done), Rgb(0.0F)); // differences may be negative, few of them even on the whole
             out.variance += float(variance);
             out.distance = near > 0.0 ? float(n / near) : out.distance;
             out.nearest = nearest.back();

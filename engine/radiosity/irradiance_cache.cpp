@@ -10,7 +10,7 @@ namespace {
 
 using Cell = glm::vec<3, std::int32_t>;
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-constexpr std::size_t kGrain = 16;
+constexpr std::size_t kGrain = 4;
 constexpr float kWithinReach =
     0.45F; // weight of a record that a point needs at least: records overlap, so that gradients are known
 constexpr int kMostRounds = 4; // of looking where interpolation is off

@@ -1,6 +1,7 @@
 // Reflected light that follows the hand: what leaves send on now, and what they see otherwise than before.
 #include "engine/base/parallel.h"
 #include "engine/base/rng.h"
+#include "engine/optics/specular.h"
 #include "engine/radiosity/leaf_surroundings.h"
 #include "engine/solver/gi_engine_impl.h"
 
@@ -105,6 +106,11 @@ std::vector<std::vector<VertexChange>> GiEngine::look_from_vertices(Impl& s, con
         std::uint32_t layer = 0;
         VertexChange change;
     };
+    // Where light goes over what moved, changed sight does not know: see SightChange.
+    constexpr float kWholeBesideMirrors = 0.05F;
+    const bool mirrors = !in_a_hurry && std::any_of(live.displaced.begin(), live.displaced.end(),
+                                                    [&](const auto& d) { return is_specular(s.rays->material(d.first)); });
+    const float whole_share = mirrors ? std::min(effort.whole_share, kWholeBesideMirrors) : effort.whole_share;
     std::vector<std::vector<Look>> found(live.layers.surfaces.size());
     parallel_chunks(found.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
@@ -127,7 +133,7 @@ std::vector<std::vector<VertexChange>> GiEngine::look_from_vertices(Impl& s, con
                         continue;
                     }
                     const float share = sight.share(side[v].position, side[v].normal);
-                    if (moved || places.was_covered(v, back) || share > effort.whole_share) {
+                    if (moved || places.was_covered(v, back) || share > whole_share) {
                         found[i].push_back({2.0F, std::uint32_t(i), {v, back, Kind::Whole, Rgb(0.0F)}});
                     } else if (share > effort.least_share) {
                         found[i].push_back({share, std::uint32_t(i), {v, back, Kind::Sight, Rgb(0.0F)}});
