@@ -60,7 +60,10 @@ private:
         if (taken_) {
             return;
         }
-        if (window_.false_color_bar().fitting() || window_.viewport().inspector().busy()) {
+        const auto& shown = window_.viewport();
+        const bool uploading = shown.caustic_view() == atrium::ui::CausticView::Texture &&
+                               shown.shown_solution() != window_.engine().solution();
+        if (uploading || window_.false_color_bar().fitting() || shown.inspector().busy()) {
             QTimer::singleShot(500, this, [this] { take(); });
             return;
         }
@@ -73,6 +76,7 @@ private:
             auto& view = window_.viewport();
             view.inspect_element({point.x() * view.width(), point.y() * view.height()});
         }
+        window_.viewport().refine_now();
         const bool saved = window_.grab().save(file_);
         if (!saved) {
             QTextStream(stderr) << QObject::tr("%1: the picture could not be written").arg(file_) << '\n';

@@ -99,9 +99,18 @@ struct LiveDirectMaps::Impl {
                 all.push_back(parts_[i].get());
             }
         }
+        if (!sight_) {
+            std::size_t tiles = 0;
+            for (const LightSheet& s : sheets_.sheets()) {
+                tiles += s.used.size();
+            }
+            sight_ = std::make_unique<BoxSight>(sheets_.rays(), tiles);
+        }
+        sight_->about(change.boxes, !change.exact);
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             const std::size_t before = i == change.anew ? 0 : parts_[i]->samples_taken();
-            if (i == change.anew ? !look_anew(i, change.exact) : !parts_[i]->repair(change, all, context, changed_)) {
+            if (i == change.anew ? !look_anew(i, change.exact)
+                                 : !parts_[i]->repair(change, *sight_, all, context, changed_)) {
                 return out;
             }
             out.samples += parts_[i]->samples_taken() - before;
@@ -355,6 +364,7 @@ private:
     std::vector<std::unique_ptr<LightPart>> parts_;
     std::vector<SheetPlace> places_;    ///< of all sheets
     std::vector<std::uint8_t> changed_; ///< per sheet: samples are new that no map shows yet
+    std::unique_ptr<BoxSight> sight_;   ///< of tiles, once something moved
 };
 
 LiveDirectMaps::LiveDirectMaps(const RayScene& rays, std::span<const SurfaceCharts> charts, std::vector<DirectPart> parts,

@@ -5,6 +5,7 @@
 #include "engine/geometry/surface_charts.h"
 #include "engine/layers/light_map.h"
 #include "engine/radiosity/direct_light.h"
+#include "engine/radiosity/hierarchy.h"
 
 #include <functional>
 #include <memory>
@@ -30,10 +31,17 @@ struct DirectPart {
     /// A change within the box may change the light at the point, or at any within `radius` of it; anything may when empty.
     /// Called from many threads.
     std::function<bool(const vec3& point, float radius, const Box3& box)> touched = {};
+    /// Where a change touches the point: rays towards the sources meet what moved since all was built, where it is now or
+    /// where it stood. False: the point's light is what it was then. Anything may meet when empty. Called from many threads.
+    /// `closely`: with more rays.
+    std::function<bool(const SurfacePoint& at, std::span<const Box3> boxes, bool closely)> meets_moved = {};
     /// No more light than this (lux) reaches a place within `radius` of the point, whatever is in the way, in the plane
     /// across the unit `normal` through the point; 0 = any plane. Where it is empty nothing is known. Called from many
     /// threads.
     std::function<float(const vec3& point, float radius, const vec3& normal)> most = {};
+    /// Of the mirrors that all of it comes over, where light is not seen straight; empty: unknown.
+    std::vector<Box3> over = {};
+    bool straight = true; ///< and not over mirrors: what a place does not see cannot come between
 };
 
 /// What moved: where to look for light that changed.
@@ -43,6 +51,9 @@ struct LightChange {
     /// Many samples, with all their rays, instead of those that count at a glance; what earlier repairs left out or looked
     /// at in passing is made good.
     bool exact = false;
+    /// The ray scene tells what has not moved (RayScene::look_back()): places that cannot see the boxes are left out.
+    bool looks_back = false;
+    bool mirror_moved = false; ///< since all was built: DirectPart::over is no longer true
     /// A part that is looked at anew wherever it shines, since its sources themselves moved; kNone: none.
     std::size_t anew = kNone;
     static constexpr std::size_t kNone = SIZE_MAX;

@@ -1,6 +1,7 @@
 #include "engine/layers/layer_builder.h"
 
 #include "engine/base/parallel.h"
+#include "engine/layers/cover_border.h"
 #include "engine/layers/covered_points.h"
 #include "engine/layers/light_smoothing.h"
 #include "engine/layers/node_mesh.h"
@@ -16,8 +17,10 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 constexpr float kShortest = 0.5F; // of the smallest edge: shorter edges are not split however much light changes on them
-constexpr float kPullIn =
-    0.25F; // of the shortest edge: how far a sample is moved off its vertex towards the triangles' inside
+// Of the smallest edge: how far a sample is moved off its vertex towards the triangles' inside, and how far where something
+// lies on the surface there.
+constexpr float kPullIn = 0.25F;
+constexpr float kPullInClose = 0.02F;
 
 class LayerBuild {
 public:
@@ -43,16 +46,19 @@ public:
         bool complete = sample(all, from, from + 0.5 * (to - from));
         for (int level = 0; complete && level < 6 && added_ < settings_.max_vertices; ++level) {
             const double step = 0.5 * (to - from) / 6.0;
-            if (!split_by_contrast(level == 0, from + 0.5 * (to - from) + step * level,
-                                   from + 0.5 * (to - from) + step * (level + 1), complete)) {
+            if (!split_by_contrast(from + 0.5 * (to - from) + step * level, from + 0.5 * (to - from) + step * (level + 1),
+                                   complete)) {
                 break;
             }
         }
+        complete = complete && find_all_borders();
         if (complete && field_.prepare) {
             sample_reflected_anew();
-            complete = !context_.should_stop();
         }
-        if (!complete) {
+        if (complete) {
+            sample_borders();
+        }
+        if (!complete || context_.should_stop()) {
             return {};
         }
         LayerSet out = finish();
@@ -193,8 +199,7 @@ private:
                 if (v.unlit) {
                     continue;
                 }
-                v.front_covered = covered(v, v.normal);
-                v.back_covered = v.wants_back && covered(v, -v.normal);
+                find_cover(v);
             }
         });
         if (!field_.prepare || context_.should_stop()) {
@@ -217,8 +222,22 @@ private:
         return field_.prepare(points);
     }
 
-    [[nodiscard]] bool covered(const LightVertex& v, const vec3& n) const {
-        return is_covered(rays_, sample_position(v, n), n, settings_.cover_reach);
+    // What is open may be narrower than samples are moved: what is covered there may be open close to the vertex.
+    void find_cover(LightVertex& v) const {
+        const auto covered = [&](const vec3& n) {
+            return is_out_of_sight(rays_, sample_position(v, n), n, settings_.cover_reach);
+        };
+        v.front_covered = covered(v.normal);
+        v.back_covered = v.wants_back && covered(-v.normal);
+        if (v.front_covered || v.back_covered) {
+            v.close = true;
+            const bool front = covered(v.normal), back = v.wants_back && covered(-v.normal);
+            // Neither side may lose by it.
+            v.close =
+                front <= v.front_covered && back <= v.back_covered && (front != v.front_covered || back != v.back_covered);
+            v.front_covered = v.close ? front : v.front_covered;
+            v.back_covered = v.close ? back : v.back_covered;
+        }
     }
 
     // The field may have got finer since a vertex was sampled.
@@ -238,6 +257,41 @@ private:
                     }
                 }
             });
+        }
+    }
+
+    // Where something rests on a surface, edges that run under it are followed to its border; the field is told of that.
+    bool find_all_borders() {
+        borders_.resize(meshes_.size());
+        std::vector<SurfacePoint> points;
+        const auto place = [&](const LightVertex& v, const vec3& n) { return sample_position(v, n); };
+        const auto covered_at = [&](const vec3& p, const vec3& n) {
+            return is_out_of_sight(rays_, p, n, settings_.cover_reach);
+        };
+        for (std::size_t m = 0; m < meshes_.size(); ++m) {
+            for (const bool back : {false, true}) {
+                borders_[m][back ? 1 : 0] = find_borders(meshes_[m], {back}, place, covered_at, context_);
+                for (const BorderEdge& e : borders_[m][back ? 1 : 0]) {
+                    points.push_back({e.position, e.normal});
+                }
+            }
+        }
+        return !context_.should_stop() && (!field_.prepare || field_.prepare(points));
+    }
+
+    void sample_borders() {
+        for (std::size_t m = 0; m < meshes_.size(); ++m) {
+            for (std::vector<BorderEdge>& borders : borders_[m]) {
+                parallel_chunks(borders.size(), 16, [&](std::size_t begin, std::size_t end, std::size_t) {
+                    for (std::size_t i = begin; i < end && !context_.should_stop(); ++i) {
+                        BorderEdge& e = borders[i];
+                        e.reflected = field_.reflected(e.position, e.normal);
+                        if (!meshes_[m].vertices[e.open].charted()) {
+                            e.direct = field_.direct(e.position, e.normal);
+                        }
+                    }
+                });
+            }
         }
     }
 
@@ -272,8 +326,8 @@ private:
         vec3 inwards = v.triangles > 0.0F ? v.towards / v.triangles : vec3(0.0F);
         inwards -= n * std::min(glm::dot(inwards, n), 0.0F);
         const float length = glm::length(inwards);
-        return length > 0.0F ? v.position + inwards * std::min(0.35F, kPullIn * settings_.smallest_edge / length)
-                             : v.position;
+        const float pull = (v.close ? kPullInClose : kPullIn) * settings_.smallest_edge;
+        return length > 0.0F ? v.position + inwards * std::min(0.35F, pull / length) : v.position;
     }
 
     void sample_vertex(LightVertex& v) const {
@@ -324,7 +378,7 @@ private:
     }
 
     // One level: samples the midpoints of all open edges, splits those that deviate. False when nothing was split.
-    bool split_by_contrast(bool first_look, double from, double to, bool& complete) {
+    bool split_by_contrast(double from, double to, bool& complete) {
         struct Candidate {
             std::size_t mesh;
             std::uint32_t a, b; // vertex pair
@@ -351,10 +405,10 @@ private:
                     if (length <= kShortest * settings_.smallest_edge) {
                         continue;
                     }
-                    // The file's own short edges are looked at only where their ends already differ: fine meshes have
-                    // far more edges than light has detail.
+                    // Short edges are looked at only where their ends already differ: fine meshes have far more edges than
+                    // light has detail, and a look takes records of its own.
                     const bool is_short = length <= std::max(0.25F * settings_.base_edge, 2.0F * settings_.smallest_edge);
-                    if (first_look && is_short && alike(mesh.vertices[a], mesh.vertices[b], wanted(length))) {
+                    if (is_short && alike(mesh.vertices[a], mesh.vertices[b], wanted(length))) {
                         continue;
                     }
                     const auto [it, fresh] = seen.try_emplace(edge_key(a, b), candidates.size());
@@ -447,14 +501,7 @@ private:
         out.surfaces.resize(rays_.surfaces().size());
         out.places.resize(settings_.keep_places ? out.surfaces.size() : 0);
         for (NodeMesh& mesh : meshes_) {
-            fill_covered(mesh, &LightVertex::front_covered, &LightVertex::front, stop_);
-            fill_covered(mesh, &LightVertex::back_covered, &LightVertex::back, stop_);
-            fill_covered(mesh, &LightVertex::front_covered, &LightVertex::front_direct, stop_);
-            fill_covered(mesh, &LightVertex::back_covered, &LightVertex::back_direct, stop_);
-            for (DirectSample LightVertex::*sample :
-                 {&LightVertex::front, &LightVertex::back, &LightVertex::front_direct, &LightVertex::back_direct}) {
-                smooth_noise(mesh, sample, stop_);
-            }
+            smooth_and_fill(mesh);
             if (context_.should_stop()) {
                 return {};
             }
@@ -542,6 +589,20 @@ private:
         return out;
     }
 
+    void smooth_and_fill(NodeMesh& mesh) {
+        const auto& borders = borders_[std::size_t(&mesh - meshes_.data())];
+        for (DirectSample LightVertex::*sample : {&LightVertex::front, &LightVertex::front_direct}) {
+            smooth_noise(mesh, &LightVertex::front_covered, sample, stop_);
+        }
+        for (DirectSample LightVertex::*sample : {&LightVertex::back, &LightVertex::back_direct}) {
+            smooth_noise(mesh, &LightVertex::back_covered, sample, stop_);
+        }
+        fill_covered(mesh, {false}, &LightVertex::front, borders[0], &BorderEdge::reflected, stop_);
+        fill_covered(mesh, {false}, &LightVertex::front_direct, borders[0], &BorderEdge::direct, stop_);
+        fill_covered(mesh, {true}, &LightVertex::back, borders[1], &BorderEdge::reflected, stop_);
+        fill_covered(mesh, {true}, &LightVertex::back_direct, borders[1], &BorderEdge::direct, stop_);
+    }
+
     void add_places(VertexPlaces& places, const LightVertex& v) const {
         const auto place = [&](const vec3& n) { return v.unlit ? SurfacePoint{} : SurfacePoint{sample_position(v, n), n}; };
         const unsigned covered = (v.front_covered ? 1U : 0U) | (v.back_covered ? 2U : 0U);
@@ -585,6 +646,7 @@ private:
     const RunContext& context_;
     StopCheck stop_; ///< for loops of the engine thread
     std::vector<NodeMesh> meshes_;
+    std::vector<std::array<std::vector<BorderEdge>, 2>> borders_; ///< of the meshes, front and back
     std::size_t added_ = 0;
 };
 

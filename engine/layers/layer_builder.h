@@ -47,13 +47,15 @@ struct VertexPlaces {
     std::uint32_t surface = 0; ///< of RayScene::surfaces()
     std::vector<SurfacePoint> front;
     std::vector<SurfacePoint> back;             ///< empty without a back side
-    std::vector<std::uint8_t> state;            ///< per vertex, of the following bits
+    std::vector<std::uint16_t> state;           ///< per vertex, of the following bits
     static constexpr std::uint8_t kCharted = 1; ///< direct light is in the light map and not on the vertex
     /// Something lies on it: it shows its neighbours' light. Front; the back's bit is twice that.
     static constexpr std::uint8_t kCovered = 2;
     static constexpr std::uint8_t kWasCovered = 8; ///< the same when all was built
     /// Direct light was left out or looked at in passing by an update in a hurry. Front; the back's bit is twice that.
     static constexpr std::uint8_t kStale = 32;
+    /// Its direct light may not be that of when all was built. Front; the back's bit is twice that.
+    static constexpr std::uint8_t kDiffers = 128;
 
     [[nodiscard]] const std::vector<SurfacePoint>& side(bool is_back) const { return is_back ? back : front; }
     [[nodiscard]] bool covered(std::size_t vertex, bool is_back) const {
@@ -67,7 +69,14 @@ struct VertexPlaces {
     }
     void set_stale(std::size_t vertex, bool is_back, bool is_stale) {
         const unsigned bit = is_back ? 2U * kStale : kStale;
-        state[vertex] = std::uint8_t(is_stale ? state[vertex] | bit : state[vertex] & ~bit);
+        state[vertex] = std::uint16_t(is_stale ? state[vertex] | bit : state[vertex] & ~bit);
+    }
+    [[nodiscard]] bool differs(std::size_t vertex, bool is_back) const {
+        return (state[vertex] & (is_back ? 2U * kDiffers : kDiffers)) != 0;
+    }
+    void set_differs(std::size_t vertex, bool is_back, bool does) {
+        const unsigned bit = is_back ? 2U * kDiffers : kDiffers;
+        state[vertex] = std::uint16_t(does ? state[vertex] | bit : state[vertex] & ~bit);
     }
     /// The vertex has light of its own on this side.
     [[nodiscard]] bool shows(std::size_t vertex, bool is_back) const {

@@ -67,7 +67,7 @@ std::uint32_t LightCells::tile_level(std::uint32_t tile) const { return tiles_[t
 
 std::size_t LightCells::slot(std::uint32_t sheet, std::uint32_t x, std::uint32_t y) const {
     const std::size_t mask = table_.size() - 1;
-    std::size_t i = hash64((std::uint64_t(x) << 32 | y) ^ hash64(sheet)) & mask;
+    std::size_t i = hash64(std::uint64_t(sheet) << 42 ^ std::uint64_t(x) << 21 ^ y) & mask;
     while (table_[i] != kNone) {
         const LightNode& n = nodes[table_[i]];
         if (n.sheet == sheet && n.x == x && n.y == y) {

@@ -226,8 +226,8 @@ void LightPart::take(const Request& request) {
         // Bright or dark: what shines into the gap under a lamp that lies on a ceiling is not the light of the ceiling.
         state = state_of_other_parts(request);
         if (state == State::Unknown) {
-            state = is_covered(sheets_.rays(), place->point, place->normal, settings_.cover_reach) ? State::Covered
-                                                                                                   : State::Known;
+            const bool hidden = is_out_of_sight(sheets_.rays(), place->point, place->normal, settings_.cover_reach);
+            state = hidden ? State::Covered : State::Known;
         }
         light = state == State::Known ? part_.light(place->point, place->normal) : DirectSample{};
     }

@@ -6,6 +6,7 @@
 #include "engine/layers/light_cells.h"
 #include "engine/layers/light_sheets.h"
 #include "engine/layers/tile_budget.h"
+#include "engine/radiosity/box_sight.h"
 
 #include <array>
 #include <span>
@@ -32,7 +33,8 @@ public:
 
     /// Looks again where a change may have changed the light, and divides cells where its edges lie now. Marks sheets whose
     /// light is new. False when asked to stop. In a hurry errors are judged against the light of `all` parts.
-    bool repair(const LightChange& change, std::span<const LightPart* const> all, const RunContext& context,
+    /// `sight`: of the boxes of the change.
+    bool repair(const LightChange& change, BoxSight& sight, std::span<const LightPart* const> all, const RunContext& context,
                 std::vector<std::uint8_t>& changed_sheets);
 
     /// What one source of this part sends to every node, over its brightness. `source`: that source alone, over its
@@ -90,12 +92,14 @@ private:
     [[nodiscard]] bool may_change(const LightChange& change, std::uint32_t sheet, const vec2& steps, float radius) const;
     [[nodiscard]] bool may_change_at(const LightChange& change, const vec3& point, float radius) const;
     bool node_may_change(const LightChange& change, std::uint32_t node);
+    [[nodiscard]] bool meets_moved(const LightChange& change, std::uint32_t sheet, const vec3& point) const;
     [[nodiscard]] bool may_change_round(const LightChange& change, std::uint32_t surface) const;
-    [[nodiscard]] std::vector<std::uint8_t> tiles_to_look_at(const LightChange& change) const;
+    [[nodiscard]] bool tile_sees(BoxSight& sight, std::uint32_t sheet, std::uint32_t u, std::uint32_t v) const;
+    std::vector<std::uint16_t> blocks_to_look_at(const LightChange& change, BoxSight& sight);
     void divide_around(const LightChange& change);
     std::array<LightCell, 4> divide_smoothly(const LightCell& cell);
     void keep_most_seen(const LightChange& change, std::size_t most, std::vector<std::uint32_t>& nodes) const;
-    std::vector<std::uint32_t> ask_again(const LightChange& change);
+    std::vector<std::uint32_t> ask_again(const LightChange& change, BoxSight& sight);
     void spread_change(const std::vector<std::uint32_t>& asked, const std::vector<LightNode>& before);
     [[nodiscard]] std::vector<LightCell> cells_around(const std::vector<std::uint32_t>& changed) const;
     void find_floors();
@@ -141,9 +145,12 @@ private:
     unsigned repair_level_ = 0;
     std::vector<vec3> round_places_;  ///< per node, of round charts, as far as repairs asked; empty without any
     std::vector<std::uint8_t> stale_; ///< per node (those beyond its end: 0): left out or guessed by a repair in a hurry
-    std::size_t asked_ = 0;           ///< nodes that were asked for
-    std::size_t taken_ = 0;           ///< samples
-    std::size_t sampled_ = 0;         ///< nodes that were sampled
+    std::unique_ptr<BoxSight> over_sight_; ///< of part_.over, once a repair asked
+    /// Per node and per probe: its light may not be that of when all was built. Nodes beyond the end: 1.
+    std::vector<std::uint8_t> differs_, probe_differs_;
+    std::size_t asked_ = 0;   ///< nodes that were asked for
+    std::size_t taken_ = 0;   ///< samples
+    std::size_t sampled_ = 0; ///< nodes that were sampled
 };
 
 template <class Visit> void LightPart::for_probes(const LightCell& c, const Visit& visit) const {

@@ -5,51 +5,7 @@
 
 namespace atrium {
 
-void fill_covered(NodeMesh& mesh, bool LightVertex::*covered, DirectSample LightVertex::*sample, StopCheck& stop) {
-    std::vector<std::uint32_t> open;
-    std::vector<std::uint8_t> empty(mesh.vertices.size(), 0); // still to be filled
-    for (std::uint32_t v = 0; v < mesh.vertices.size() && !stop(); ++v) {
-        if (mesh.vertices[v].*covered) {
-            open.push_back(v);
-            empty[v] = 1;
-        }
-    }
-    std::vector<Rgb> sum(open.empty() ? 0 : mesh.vertices.size());
-    std::vector<float> count(sum.size());
-    while (!open.empty()) {
-        std::fill(sum.begin(), sum.end(), Rgb(0.0F));
-        std::fill(count.begin(), count.end(), 0.0F);
-        for (const MeshTriangle& t : mesh.triangles) {
-            if (stop()) {
-                return;
-            }
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t to = t.v[k];
-                for (const std::uint32_t from : {t.v[(k + 1) % 3], t.v[(k + 2) % 3]}) {
-                    if (empty[to] != 0 && empty[from] == 0) {
-                        sum[to] += (mesh.vertices[from].*sample).irradiance;
-                        count[to] += 1.0F;
-                    }
-                }
-            }
-        }
-        std::vector<std::uint32_t> left;
-        for (const std::uint32_t v : open) {
-            if (count[v] > 0.0F) {
-                (mesh.vertices[v].*sample).irradiance = sum[v] / count[v];
-                empty[v] = 0;
-            } else {
-                left.push_back(v);
-            }
-        }
-        if (left.size() == open.size()) {
-            break; // wholly enclosed: dark, and nobody sees it
-        }
-        open.swap(left);
-    }
-}
-
-void smooth_noise(NodeMesh& mesh, DirectSample LightVertex::*sample, StopCheck& stop) {
+void smooth_noise(NodeMesh& mesh, bool LightVertex::*covered, DirectSample LightVertex::*sample, StopCheck& stop) {
     constexpr int kRounds = 4;
     std::vector<Rgb> sum(mesh.vertices.size());
     std::vector<float> weight(mesh.vertices.size());
@@ -66,6 +22,9 @@ void smooth_noise(NodeMesh& mesh, DirectSample LightVertex::*sample, StopCheck& 
             }
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t a = t.v[k], b = t.v[(k + 1) % 3];
+                if (mesh.vertices[a].*covered || mesh.vertices[b].*covered) {
+                    continue;
+                }
                 const DirectSample& x = mesh.vertices[a].*sample;
                 const DirectSample& y = mesh.vertices[b].*sample;
                 const float noise = x.variance + y.variance;

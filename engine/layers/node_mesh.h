@@ -28,6 +28,7 @@ struct LightVertex {
     bool unlit = false;         ///< of a mirror or glass: its irradiance is of no interest
     bool front_covered = false; ///< something lies on the surface here: no light of its own, shown like its neighbours
     bool back_covered = false;
+    bool close = false;   ///< its light is sampled close to it, for a little further inside something lies on the surface
     vec2 light_uv{-1.0F}; ///< chart-space coordinates (tiles); negative: uncharted, direct light is sampled here
     DirectSample front;   ///< reflected light
     DirectSample back;

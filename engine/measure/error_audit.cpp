@@ -18,7 +18,9 @@ constexpr double kNoiseShare = 0.1; // of the error's square that noise may stan
 constexpr int kResamples = 400;
 constexpr double kFarOff = 25.0;        // times the median of the squares
 constexpr std::size_t kAskedAgain = 16; // one place in so many at most
-constexpr std::uint64_t kMorePaths = 8; // times those of the first answer
+constexpr std::uint64_t kMorePaths = 8; // times those of the first answer, at most
+constexpr double kFirstAnswer = 0.7;    // of all rays that the audit may take
+constexpr double kLeastBudget = 2e6;    // rays
 
 struct Comparison {
     std::vector<double> squares; ///< of the relative differences, less the reference's own variance
@@ -27,7 +29,6 @@ struct Comparison {
     double bias = 0;
     double bias_error = 0;
     std::vector<std::size_t> used; ///< places where the truth is that of the same surface: not where two lie back to back
-    std::vector<ReferenceReading> truth;
 };
 
 double mean_of(const std::vector<double>& values) {
@@ -101,6 +102,20 @@ std::vector<std::size_t> far_off(const Comparison& found) {
     return order;
 }
 
+/// Mean of two answers, by their paths. `before` = paths of what is there, 0 = nothing.
+void add_answer(std::vector<ReferenceReading>& sum, std::uint64_t before, const std::vector<ReferenceReading>& more,
+                std::uint64_t paths) {
+    if (before == 0) {
+        sum = more;
+        return;
+    }
+    const double share = double(paths) / double(before + paths);
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        sum[i].irradiance = sum[i].irradiance * float(1.0 - share) + more[i].irradiance * float(share);
+        sum[i].standard_error = std::hypot(sum[i].standard_error * (1.0 - share), more[i].standard_error * share);
+    }
+}
+
 /// Bounds of the mean that hold 95 times in 100, by drawing the values again and again.
 void bootstrap(const std::vector<double>& values, std::uint32_t seed, double& low, double& high) {
     std::vector<double> means;
@@ -152,33 +167,32 @@ Result<ErrorAudit> audit(const Scene& scene, const Solution& solution, const Aud
     const std::vector<SensorReading> ours = read_surfaces(scene, solution, places);
     ErrorAudit out;
     Comparison found;
+    std::vector<ReferenceReading> answer;
+    const double budget = std::max(settings.ray_share * double(solution.statistics.rays), kLeastBudget);
     ReferenceSettings wanted;
     wanted.seed = std::uint32_t(hash_combine(0xE44ULL, settings.seed));
-    std::uint64_t paths = std::min(settings.least_paths, settings.most_paths);
-    for (;;) { // a quick look first, then as long as its noise and its error ask for
-        wanted.paths = paths;
-        auto truth = reference_irradiance(scene, points, wanted, context);
+    wanted.paths = std::min(settings.least_paths, settings.most_paths);
+    for (;;) { // a quick look first, then as much more as its noise and its error ask for
+        const auto truth = reference_irradiance(scene, points, wanted, context);
         if (!truth) {
             return tl::unexpected(truth.error());
         }
         if (!truth->run.reached) {
             return fail("", "", "the audit was stopped", "Give it more time.");
         }
-        found = compare(ours, truth->points);
-        found.truth = truth->points;
-        out.paths = truth->run.paths;
+        add_answer(answer, out.paths, truth->points, truth->run.paths);
+        out.paths += truth->run.paths;
         out.rays += truth->run.rays;
-        const double per_path = double(truth->run.rays) / double(truth->run.paths);
-        const auto affordable =
-            std::uint64_t(std::max(settings.ray_share * double(solution.statistics.rays), 1e6) / per_path);
-        const std::uint64_t most = std::min(settings.most_paths, affordable);
+        found = compare(ours, answer);
+        const double per_path = double(out.rays) / double(out.paths);
+        const std::uint64_t most = std::min(settings.most_paths, std::uint64_t(kFirstAnswer * budget / per_path));
         const double allowed = kNoiseShare * std::max(mean_of(found.squares), 0.0);
-        if (found.noise <= allowed || paths >= most) {
+        if (found.noise <= allowed || out.paths + out.paths / 4 >= most) {
             break;
         }
         // Noise of a square falls with the number of paths.
         const double more = allowed > 0.0 ? std::clamp(found.noise / allowed, 2.0, 1e6) : 1e6;
-        paths = std::min(most, std::uint64_t(double(paths) * more));
+        wanted.paths = std::min(most, std::uint64_t(double(out.paths) * more)) - out.paths;
         ++wanted.seed;
     }
     if (found.squares.empty()) {
@@ -189,25 +203,25 @@ Result<ErrorAudit> audit(const Scene& scene, const Solution& solution, const Aud
         for (const std::size_t i : again) {
             few.push_back(points[i]);
         }
-        wanted.paths = kMorePaths * paths;
+        const double per_path = double(out.rays) / double(out.paths) * double(few.size()) / double(points.size());
+        const double affordable = std::max(budget - double(out.rays), 0.0) / per_path;
+        wanted.paths = std::clamp(std::uint64_t(affordable), out.paths, kMorePaths * out.paths);
         ++wanted.seed; // an answer of its own: a truth that is picked for what it said is not to be believed
         const auto truth = reference_irradiance(scene, few, wanted, context);
         if (!truth || !truth->run.reached) {
             return fail("", "", "the audit was stopped", "Give it more time.");
         }
         out.rays += truth->run.rays;
-        std::vector<ReferenceReading> all = found.truth;
         for (std::size_t k = 0; k < again.size(); ++k) {
-            all[again[k]] = truth->points[k];
+            answer[again[k]] = truth->points[k];
         }
-        found = compare(ours, all);
-        found.truth = std::move(all);
+        found = compare(ours, answer);
     }
     if (told != nullptr) {
         for (std::size_t k = 0; k < found.used.size(); ++k) {
             const std::size_t i = found.used[k];
             told->push_back({places[i].point, places[i].normal, double(luminance(ours[i].irradiance)),
-                             double(luminance(found.truth[i].irradiance)), found.truth[i].standard_error, found.squares[k]});
+                             double(luminance(answer[i].irradiance)), answer[i].standard_error, found.squares[k]});
         }
     }
     out.points = std::uint32_t(found.squares.size());

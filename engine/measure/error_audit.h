@@ -15,8 +15,9 @@ struct AuditSettings {
     std::size_t points = 512;
     std::uint64_t least_paths = 256; ///< of brute force per point
     std::uint64_t most_paths = 1024;
-    /// Beyond the least, as many rays as this share of those that the solution took, or a million where that is more.
-    double ray_share = 0.2;
+    /// Beyond the least, as many rays as this share of those that the solution took, or two million where that is more;
+    /// seven tenths of them at all places, the rest at the few that are far off.
+    double ray_share = 0.1;
     std::uint32_t seed = 1;
 };
 
@@ -25,8 +26,8 @@ AuditSettings audit_settings(SolverSettings::Quality quality);
 
 /// Reads `solution` at random places of the diffuse surfaces of `scene`, gaps that nobody looks into left out, and compares
 /// it with the reference there, whose own noise is taken out. As many paths as tell the error from that noise, at most
-/// settings.most_paths, and eight times as many at the few places that are far off what is usual. The bounds are those of a
-/// bootstrap over the places. The same figures for any number of threads. An error where no surface scatters light that
+/// settings.most_paths, and up to eight times as many at the few places that are far off what is usual. The bounds are those
+/// of a bootstrap over the places. The same figures for any number of threads. An error where no surface scatters light that
 /// light can reach, or when stopped.
 Result<ErrorAudit> audit_error(const Scene& scene, const Solution& solution, const AuditSettings& settings,
                                const RunContext& context);

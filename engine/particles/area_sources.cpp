@@ -35,7 +35,7 @@ LeafShape shape_of(const Hierarchy& emitters, const RayScene& rays, std::uint32_
 }
 
 // Neighbours in the streams' numbers are neighbours on the source: leaves along a curve that fills space (Morton order).
-void sort_leaves(const Hierarchy& emitters, ParticleSource& source) {
+void sort_leaves(const Hierarchy& emitters, bool matt, ParticleSource& source) {
     Box3 bounds;
     for (const LeafShape& leaf : source.shape) {
         bounds.add(leaf.at);
@@ -61,28 +61,45 @@ void sort_leaves(const Hierarchy& emitters, ParticleSource& source) {
         const Element& e = emitters.elements[leaves[i]];
         source.leaves.push_back(leaves[i]);
         source.shape.push_back(shape[i]);
-        source.power.push_back(double(e.area) * luminance(e.emitted) + (source.power.empty() ? 0.0 : source.power.back()));
+        const Rgb& exitance = matt ? e.radiosity : e.emitted;
+        source.power.push_back(double(e.area) * luminance(exitance) + (source.power.empty() ? 0.0 : source.power.back()));
+        if (matt) {
+            source.radiosity.push_back(exitance);
+        }
     }
+    source.first_radiosity = source.radiosity;
+}
+
+vec3 centre_of(const ParticleSource& source) {
+    dvec3 centre(0.0);
+    for (std::size_t i = 0; i < source.leaves.size(); ++i) {
+        centre += dvec3(source.shape[i].at) * (source.power[i] - (i > 0 ? source.power[i - 1] : 0.0));
+    }
+    return vec3(centre / source.power.back());
 }
 
 } // namespace
 
 ParticleSource area_source(const Hierarchy& emitters, const RayScene& rays, std::uint32_t surface,
-                           std::vector<std::uint32_t> leaves) {
+                           std::vector<std::uint32_t> leaves, bool matt) {
     ParticleSource source;
     source.leaves = std::move(leaves);
     for (const std::uint32_t leaf : source.leaves) {
         source.shape.push_back(shape_of(emitters, rays, leaf));
     }
-    sort_leaves(emitters, source);
-    dvec3 centre(0.0);
-    for (std::size_t i = 0; i < source.leaves.size(); ++i) {
-        centre += dvec3(source.shape[i].at) * (source.power[i] - (i > 0 ? source.power[i - 1] : 0.0));
-    }
-    source.centre = vec3(centre / source.power.back());
+    sort_leaves(emitters, matt, source);
+    source.centre = centre_of(source);
     source.has_size = true;
     source.surface = surface;
-    source.key = hash_combine(0xA4EAULL, surface);
+    source.key = hash_combine(matt ? 0x3A77ULL : 0xA4EAULL, surface);
+    return source;
+}
+
+ParticleSource followed(ParticleSource source, const Hierarchy& emitters, const RayScene& rays) {
+    for (std::size_t i = 0; i < source.leaves.size(); ++i) {
+        source.shape[i] = shape_of(emitters, rays, source.leaves[i]);
+    }
+    source.centre = centre_of(source);
     return source;
 }
 

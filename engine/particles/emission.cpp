@@ -176,8 +176,10 @@ bool emit_area(const ParticleSource& source, const SpecularTarget& target, const
     }
     const vec3 size = glm::abs(from.position);
     out.origin = from.position + from.normal * std::max(1e-5F, 5e-7F * max_component(size));
+    out.leaf = std::uint32_t(at);
     // Exitance over pi is radiance; the point has the density of its leaf's share of the weights over the leaf's area.
-    out.throughput = e.emitted * float(kInvPi * cosine * solid_angle * e.area * total / share);
+    const Rgb exitance = source.matt() ? Rgb(1.0F) : e.emitted;
+    out.throughput = exitance * float(kInvPi * cosine * solid_angle * e.area * total / share);
     const float distance = std::max(glm::length(target.bounds.centre() - source.centre), 0.5F * target.bounds.diagonal());
     out.d_origin = {vec3(0.0F), vec3(0.0F), aim.extent[0], aim.extent[1]};
     out.d_direction = {du, dv, vec3(0.0F), vec3(0.0F)};
@@ -233,7 +235,7 @@ std::vector<ParticleSource> particle_sources(const DirectLight& direct, const Hi
         }
     }
     for (auto& [surface, leaves] : by_surface) {
-        out.push_back(area_source(emitters, rays, surface, std::move(leaves)));
+        out.push_back(area_source(emitters, rays, surface, std::move(leaves), false));
     }
     return out;
 }

@@ -19,21 +19,28 @@ struct LeafShape {
     friend bool operator==(const LeafShape&, const LeafShape&) = default;
 };
 
-/// A source of particles: a lamp, the sun, or the shining leaves of one surface.
+/// A source of particles: a lamp, the sun, the shining leaves of one surface, or those of a matt one that stand out in the
+/// light that falls on them.
 struct ParticleSource {
     PlacedLight light;                 ///< where `leaves` is empty
     std::vector<std::uint32_t> leaves; ///< of the tree given to emit(): what shines of an area source
     std::vector<double> power;         ///< of the leaves up to and including each, lumen
     std::vector<LeafShape> shape;      ///< of every one of `leaves`
     vec3 centre{0.0F};                 ///< of an area source's light
-    Rgb radiance{1.0F};                ///< lamps: intensity (cd) or normal irradiance (lux); emitters: 1
-    float sun_radius = 0.0F;           ///< tangent of the angular radius
-    bool has_size = false;             ///< false: a point or a parallel beam, which the last two numbers do not matter to
+    Rgb radiance{1.0F};                ///< lamps: intensity (cd) or normal irradiance (lux); emitters and matt ones: 1
+    std::vector<Rgb> radiosity; ///< matt surfaces: of every one of `leaves`, which no throughput holds; empty for others
+    std::vector<Rgb> first_radiosity; ///< the same when the particles were first sent
+    float sun_radius = 0.0F;          ///< tangent of the angular radius
+    bool has_size = false;            ///< false: a point or a parallel beam, which the last two numbers do not matter to
     /// Suns: nothing of the scene lies further from (0,0,0), metres. A power of two: where particles start stays the same to
     /// the last bit while things move about in the scene.
     float reach = 0.0F;
     std::uint32_t surface = Hit::kNone; ///< that an area source's leaves belong to
     std::uint64_t key = 0;              ///< seeds its streams; from what it is, not from where it is stored
+
+    [[nodiscard]] bool matt() const { return !radiosity.empty(); }
+    /// What the throughput of particles of a leaf (its place among `leaves`) is to be multiplied by.
+    [[nodiscard]] Rgb brightness(std::uint32_t leaf) const { return matt() ? radiance * radiosity[leaf] : radiance; }
 };
 /// True where both send the same particles: all but their brightness.
 bool sends_alike(const ParticleSource& a, const ParticleSource& b);
@@ -42,7 +49,8 @@ bool sends_alike(const ParticleSource& a, const ParticleSource& b);
 struct Emission {
     vec3 origin{0.0F};
     vec3 direction{0.0F};           ///< unit
-    Rgb throughput{0.0F};           ///< times ParticleSource::radiance, over the number of particles: lumen
+    Rgb throughput{0.0F};           ///< times ParticleSource::brightness(), over the number of particles: lumen
+    std::uint32_t leaf = 0;         ///< that it leaves, its place among ParticleSource::leaves
     std::array<vec3, 4> d_origin{}; ///< 0, 1: what spreads the particles over the target; 2, 3: the source's own size
     std::array<vec3, 4> d_direction{};
 };

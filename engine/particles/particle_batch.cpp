@@ -33,7 +33,8 @@ std::vector<ParticleBatch> trace_batches(const ParticleScene& scene, const std::
     std::vector<ParticleStream> streams(links.size());
     for (std::uint32_t i = 0; i < links.size(); ++i) {
         const ParticleLink& l = links[i];
-        streams[i] = {&sources[l.source], l.target, i, l.key, l.count, l.aim};
+        const bool detail = sources[l.source].matt() && scene.detail;
+        streams[i] = {&sources[l.source], l.target, i, l.key, l.count, l.aim, detail ? &scene.detail : nullptr};
     }
     const std::size_t all = links.empty() ? 0 : links.back().first_particle + links.back().count;
     const std::size_t count = only != nullptr ? only->size() : all;
@@ -52,16 +53,17 @@ std::vector<ParticleBatch> trace_batches(const ParticleScene& scene, const std::
                 ++link;
             }
             const auto index = std::uint32_t(particle - links[link].first_particle);
+            const Hierarchy& leaves = streams[link].source->matt() ? *scene.matt : scene.emitters;
             if (!with_paths) {
-                trace_particle(scene.rays, scene.targets, scene.emitters, streams[link], index, scene.by_image,
-                               batch.landings, batch.energy);
+                trace_particle(scene.rays, scene.targets, leaves, streams[link], index, scene.by_image, batch.landings,
+                               batch.energy);
                 continue;
             }
             rays.clear();
             const std::size_t landings = batch.landings.size(), vertices = batch.vertices.size();
             ParticleEnergy energy;
-            trace_particle(scene.rays, scene.targets, scene.emitters, streams[link], index, scene.by_image, batch.landings,
-                           energy, &rays);
+            trace_particle(scene.rays, scene.targets, leaves, streams[link], index, scene.by_image, batch.landings, energy,
+                           &rays);
             ParticlePaths::add_vertices(rays, batch.vertices);
             batch.landing_count.push_back(std::uint32_t(batch.landings.size() - landings));
             batch.vertex_count.push_back(std::uint32_t(batch.vertices.size() - vertices));

@@ -16,7 +16,9 @@ struct ParticleScene {
     const SpecularTargets& targets;
     const DirectLight& direct;
     const Hierarchy& emitters;
-    CarriedByImage by_image; ///< see trace_particle()
+    CarriedByImage by_image;         ///< see trace_particle()
+    const Hierarchy* matt = nullptr; ///< that the leaves of matt sources are of; null where there are none
+    MattDetail detail = {};          ///< of these; may be empty
 };
 
 /// Light from one source to one target. Its stream of particles is fixed by its key: more of them keep those there were.

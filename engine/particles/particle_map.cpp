@@ -149,10 +149,12 @@ void ParticleMap::sum_energy() {
 
 std::size_t ParticleMap::memory_bytes() const {
     std::size_t bytes = landings_.capacity() * sizeof(Landing) + links_.capacity() * sizeof(ParticleLink);
+    bytes += matt_of_leaf_.capacity() * sizeof(std::uint32_t) + matt_links_.capacity();
     bytes += shares_.capacity() * sizeof(ParticleShares) + (paths_ ? paths_->memory_bytes() : 0) +
              (octree_ ? octree_->memory_bytes() : 0);
     for (const ParticleSource& s : sources_) {
         bytes += s.leaves.capacity() * (sizeof(std::uint32_t) + sizeof(double));
+        bytes += 2 * s.radiosity.capacity() * sizeof(Rgb);
     }
     return bytes;
 }

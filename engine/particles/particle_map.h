@@ -18,6 +18,19 @@ struct ParticleSettings {
     bool passage_octree = false; ///< touched particles are found by the paper's octree instead of a scan
 };
 
+/// See ParticleMap::add_matt().
+struct MattSettings {
+    std::span<const std::uint8_t> flags; ///< per element of the hierarchy; only leaves count
+    std::uint32_t particles = 250'000;   ///< emitted at most, but for the pilot's
+    std::uint32_t seed = 1;
+};
+
+/// Irradiance by particles of matt sources, lux per element; empty where there are none.
+struct MattLight {
+    std::vector<Rgb> first; ///< by the radiosities that the sources had at first
+    std::vector<Rgb> now;
+};
+
 /// What ParticleMap::update() did.
 struct ParticleUpdate {
     bool complete = false;       ///< false: stopped, or `fits` is false; the map is as it was
@@ -49,6 +62,27 @@ public:
     /// by the context the map stays as it was.
     ParticleUpdate update(const ParticleScene& scene, std::span<const Box3> boxes, std::span<const std::uint32_t> moved,
                           const RunContext& context);
+    /// Adds particles of matt surfaces (D->S links): from the leaves of `scene.matt` that `settings.flags` marks towards
+    /// what mirrors or bends, where a pilot finds that the light over one link stands out on what it lands on. To be called
+    /// once, on a complete map, by a solved hierarchy. False when stopped: the map is as it was. Nothing happens where no
+    /// such link is worth it.
+    bool add_matt(const ParticleScene& scene, const MattSettings& settings, const RunContext& context);
+    /// True where the map has the light that the leaf of a matt surface sends to a target: whoever follows light back over
+    /// that target to the leaf is to leave it out.
+    [[nodiscard]] bool carries(std::uint32_t leaf, std::uint32_t target) const {
+        return leaf < matt_of_leaf_.size() && matt_of_leaf_[leaf] != kNoSource && target < targets_ &&
+               matt_links_[std::size_t(matt_of_leaf_[leaf]) * targets_ + target] != 0;
+    }
+    [[nodiscard]] std::vector<std::uint32_t> matt_leaves() const; ///< of all matt sources
+    [[nodiscard]] bool any_matt() const { return !matt_of_leaf_.empty(); }
+    /// Takes over the radiosities of matt sources from the hierarchy that they are leaves of; the first ones where a source
+    /// differs by no more than `tolerance`, relative. Nothing is traced. Returns the surfaces with landings of another power
+    /// than before, ascending.
+    std::vector<std::uint32_t> take_radiosity(const Hierarchy& matt, double tolerance);
+    /// What particles of matt sources bring to the leaves of a hierarchy that follow their present ways.
+    [[nodiscard]] MattLight matt_light(const Hierarchy& receivers) const;
+    /// A link from a matt surface.
+    [[nodiscard]] bool matt(const ParticleLink& link) const { return sources_[link.source].matt(); }
     /// Takes over other intensities and colours of the lamps of `direct`, which are as many and where they were, and
     /// multiplies what emitters sent when they were traced by `emitted` (per surface of the ray scene). Nothing is traced.
     /// Returns the surfaces with landings of another power than before, ascending.
@@ -73,7 +107,7 @@ public:
     [[nodiscard]] const ParticleEnergy& energy() const { return energy_; }
     /// Power of a landing, lumen.
     [[nodiscard]] Rgb power(const Landing& landing) const {
-        return landing.throughput * sources_[links_[landing.link].source].radiance;
+        return landing.throughput * sources_[links_[landing.link].source].brightness(landing.leaf);
     }
     [[nodiscard]] std::size_t memory_bytes() const;
 
@@ -92,7 +126,10 @@ private:
                                                               const std::vector<Change>& changes) const;
     void replace(const std::vector<Change>& changes);
     void keep_paths(const std::vector<std::uint32_t>& particles, const std::vector<ParticleBatch>& batches);
+    [[nodiscard]] std::vector<ParticleSource> sources_of(const ParticleScene& scene) const;
     void share_out(const ParticleSettings& settings, std::uint32_t pilot);
+    void append(std::vector<ParticleSource>&& sources, std::vector<ParticleLink>&& links,
+                std::vector<ParticleBatch>&& batches);
     void store(std::vector<ParticleBatch>&& batches);
     void count_landings();
     void sum_energy();
@@ -106,7 +143,11 @@ private:
     std::optional<ParticlePaths> paths_;
     bool with_octree_ = false;
     std::optional<PassageOctree> octree_; ///< once something moved
-    std::vector<ParticleShares> shares_;  ///< with paths: of every particle, so that their sum does not depend on the past
+    static constexpr std::uint32_t kNoSource = 0xFFFFFFFFU;
+    std::vector<std::uint32_t> matt_of_leaf_; ///< per element: its source, or kNoSource; empty without matt sources
+    std::vector<std::uint8_t> matt_links_;    ///< not 0: there is such a link; by source and target
+    std::size_t targets_ = 0;
+    std::vector<ParticleShares> shares_; ///< with paths: of every particle, so that their sum does not depend on the past
 };
 
 } // namespace atrium

@@ -67,6 +67,11 @@ void ParticlePaths::reset(std::size_t particles, std::size_t vertices) {
     holes_ = 0;
 }
 
+void ParticlePaths::add(std::size_t particles) {
+    first_.resize(first_.size() + particles, 0);
+    count_.resize(first_.size(), 0);
+}
+
 void ParticlePaths::set(std::size_t particle, std::span<const vec3> path) {
     std::uint32_t& first = first_[particle];
     std::uint32_t& count = count_[particle];

@@ -20,6 +20,8 @@ public:
 
     /// Room for so many particles without a path and vertices to come.
     void reset(std::size_t particles, std::size_t vertices);
+    /// Room for so many more particles behind those there are, without a path.
+    void add(std::size_t particles);
     /// Gives a particle a new path (may be empty). What is longer than before goes to the end of the store; compact() gets
     /// rid of the holes.
     void set(std::size_t particle, std::span<const vec3> path);

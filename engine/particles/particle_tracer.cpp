@@ -235,6 +235,9 @@ void trace_particle(const RayScene& rays, const SpecularTargets& targets, const 
               emission)) {
         return;
     }
+    if (stream.detail != nullptr) {
+        emission.throughput *= (*stream.detail)(stream.source->leaves[emission.leaf], emission.origin);
+    }
     LightWay way;
     way.ray = {emission.origin, emission.direction};
     way.through = emission.throughput / float(std::max(stream.count, 1U));
@@ -249,7 +252,8 @@ void trace_particle(const RayScene& rays, const SpecularTargets& targets, const 
         beam.d[k] = emission.d_direction[k];
     }
     beam.used = emission.d_direction[2] == vec3(0.0F) && emission.d_direction[3] == vec3(0.0F) ? 2 : 4;
-    const auto power = [&](const Rgb& through) { return double(luminance(through * stream.source->radiance)); };
+    const Rgb brightness = stream.source->brightness(emission.leaf);
+    const auto power = [&](const Rgb& through) { return double(luminance(through * brightness)); };
     bool imaged = false; // so far the chain is one that mirror images carry
     for (unsigned met = 0; met < kMostSurfaces; ++met) {
         const Hit hit = rays.nearest(way.ray);
@@ -305,6 +309,7 @@ void trace_particle(const RayScene& rays, const SpecularTargets& targets, const 
                 landing.throughput = way.through;
                 landing.link = stream.link;
                 landing.index = index;
+                landing.leaf = emission.leaf;
                 landing.bends = std::uint16_t(way.bends);
                 landing.back = !hit.front;
                 footprint(beam, side, stream.count, landing);

@@ -9,17 +9,18 @@
 
 namespace atrium {
 
-/// A particle where a surface receives it. Its power = throughput * ParticleSource::radiance: what changes with a lamp's
+/// A particle where a surface receives it. Its power = throughput * ParticleSource::brightness(): what changes with a lamp's
 /// brightness or a wall's colour is not stored.
 struct Landing {
     std::uint32_t surface = 0; ///< of RayScene::surfaces()
     std::uint32_t triangle = 0;
     vec2 barycentric{0.0F};
-    Rgb throughput{0.0F}; ///< lumen where the source's radiance is 1
+    Rgb throughput{0.0F}; ///< lumen where the source's brightness is 1
     vec3 axis_a{0.0F};    ///< half axes of the footprint in the surface, metres
     vec3 axis_b{0.0F};
     std::uint32_t link = 0;  ///< of ParticleMap::links()
     std::uint32_t index = 0; ///< in the link's stream
+    std::uint32_t leaf = 0;  ///< that it left, its place among ParticleSource::leaves
     std::uint16_t bends = 0;
     bool back = false; ///< on the back side
     friend bool operator==(const Landing&, const Landing&) = default;
@@ -46,6 +47,9 @@ struct ParticleEnergy {
     }
 };
 
+/// What a point of a matt source's leaf (an element) sends over what the whole leaf does, its mean about 1.
+using MattDetail = std::function<Rgb(std::uint32_t leaf, const vec3& position)>;
+
 /// How a link's particles are traced.
 struct ParticleStream {
     const ParticleSource* source = nullptr;
@@ -54,6 +58,7 @@ struct ParticleStream {
     std::uint64_t key = 0;
     std::uint32_t count = 0; ///< particles in the stream
     ParticleAim aim;
+    const MattDetail* detail = nullptr; ///< of a matt source; null where leaves send alike from all over
 };
 
 /// True where a chain whose only bend is at this hit is carried by mirror images of the light.

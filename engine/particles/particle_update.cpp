@@ -1,6 +1,7 @@
 // ParticleMap: what an edit touches is traced again, the rest stays.
 #include "engine/base/checks.h"
 #include "engine/base/parallel.h"
+#include "engine/particles/area_sources.h"
 #include "engine/particles/particle_map.h"
 
 #include <algorithm>
@@ -15,11 +16,6 @@ double seconds_since(std::chrono::steady_clock::time_point& start) {
     const double out = std::chrono::duration<double>(now - start).count();
     start = now;
     return out;
-}
-
-std::vector<ParticleSource> sources_of(const ParticleScene& scene) {
-    return scene.targets.empty() ? std::vector<ParticleSource>{}
-                                 : particle_sources(scene.direct, scene.emitters, scene.rays);
 }
 
 // Links belong to what sends and what is aimed at: there must be as many sources as before, of the same names.
@@ -49,6 +45,21 @@ std::vector<std::uint32_t> marked(const std::vector<std::uint8_t>& marks) {
 }
 
 } // namespace
+
+// Sources as they are now: those of the scene, and behind them the matt ones that were found by add_matt().
+std::vector<ParticleSource> ParticleMap::sources_of(const ParticleScene& scene) const {
+    std::vector<ParticleSource> out;
+    if (scene.targets.empty()) {
+        return out;
+    }
+    out = particle_sources(scene.direct, scene.emitters, scene.rays);
+    for (const ParticleSource& source : sources_) {
+        if (source.matt() && scene.matt != nullptr) {
+            out.push_back(followed(source, *scene.matt, scene.rays));
+        }
+    }
+    return out;
+}
 
 /// A run [first, first + count) of the landings that others take the place of.
 struct ParticleMap::Change {
@@ -281,7 +292,7 @@ std::vector<std::uint32_t> ParticleMap::relight(const DirectLight& direct, std::
         if (source.leaves.empty()) { // lamps come first, in their order
             source.light = direct.lights()[i];
             source.radiance = source.light.light.color * source.light.light.intensity;
-        } else {
+        } else if (!source.matt()) {
             source.radiance = emitted[source.surface];
         }
     }

@@ -191,6 +191,17 @@ std::size_t PassageOctree::cells() const {
     return std::size_t(std::count_if(cells_.begin(), cells_.end(), [](const Cell& c) { return c.used; }));
 }
 
+std::vector<PassageOctree::Leaf> PassageOctree::leaves() const {
+    std::vector<Leaf> out;
+    for (std::size_t i = 1; i < cells_.size(); ++i) {
+        const Cell& cell = cells_[i];
+        if (cell.used && std::all_of(cell.child.begin(), cell.child.end(), [](std::uint32_t c) { return c == 0; })) {
+            out.push_back({cell.box, cell.crossing.size()});
+        }
+    }
+    return out;
+}
+
 std::size_t PassageOctree::memory_bytes() const {
     std::size_t bytes = cells_.capacity() * sizeof(Cell);
     for (const Cell& c : cells_) {

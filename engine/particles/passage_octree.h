@@ -24,6 +24,12 @@ public:
 
     [[nodiscard]] float reach() const { return reach_; }
     [[nodiscard]] std::size_t cells() const;
+    /// A cell that is not divided.
+    struct Leaf {
+        Box3 box;                  ///< engine coordinates
+        std::size_t particles = 0; ///< that cross it
+    };
+    [[nodiscard]] std::vector<Leaf> leaves() const; ///< without the root
     [[nodiscard]] std::size_t memory_bytes() const;
 
 private:

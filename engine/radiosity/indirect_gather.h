@@ -21,6 +21,7 @@ struct IndirectSettings {
     /// tells how much reflected light reaches the very spot. In folds and corners the mean is another place's light.
     float near = 0.0F;
     unsigned most_bounces = 4; ///< of such further rays, one after the other
+    bool all_light = false;    ///< also what particles bring
     GatherSettings bright;     ///< for the spots that stand out; rays find those that its `nearest` leaves out
 };
 
@@ -32,9 +33,10 @@ class IndirectGather {
 public:
     /// `bright` flags leaves that are gathered by name and left out of the hemisphere (bright_leaves()).
     /// `sky` = radiance that rays see which leave the scene over mirrors or through lenses, cd/m2. Over the flat
-    /// mirrors of `mirrors` (may be null) `bright` leaves are looked for by name too, one reflection each.
+    /// mirrors of `mirrors` (may be null) `bright` leaves are looked for by name too, one reflection each. What is
+    /// `carried` comes to the point by particles and is no part of its irradiance.
     IndirectGather(const Hierarchy& solved, const RayScene& rays, LeafFlags bright, DirectAtHit direct = {},
-                   const Rgb& sky = Rgb(0.0F), const MirrorLight* mirrors = nullptr);
+                   const Rgb& sky = Rgb(0.0F), const MirrorLight* mirrors = nullptr, CarriedByParticles carried = {});
     IndirectGather(const IndirectGather&) = delete;
     IndirectGather& operator=(const IndirectGather&) = delete;
 
@@ -43,13 +45,20 @@ public:
     [[nodiscard]] FieldSample irradiance(const vec3& point, const vec3& normal, const IndirectSettings& settings) const;
 
 private:
-    /// Radiosity that arrives along the index-th ray, over mirrors and through glass; `distance` of the first hit, infinite
-    /// without one. `bounce` = 0 at the point that is asked for, where what stands out is gathered by name.
-    [[nodiscard]] Rgb along(const vec3& origin, const vec3& direction, std::uint32_t index, const IndirectSettings& settings,
-                            unsigned bounce, float& distance) const;
+    /// One of the rays that are summed up.
+    struct Sample {
+        std::uint32_t index = 0; ///< of its numbers
+        unsigned bounce = 0;     ///< 0 at the point that is asked for, where what stands out is gathered by name
+        float weight = 1.0F;     ///< share of what it brings that counts
+        float usual = 0.0F;      ///< what a ray brings, luminance, by those before it; 0 = not known yet
+    };
+    /// Radiosity that arrives along a ray, over mirrors and through glass; `distance` of the first hit, infinite without
+    /// one.
+    [[nodiscard]] Rgb along(const vec3& origin, const vec3& direction, const Sample& sample,
+                            const IndirectSettings& settings, float& distance) const;
     /// Radiosity of a leaf where a ray of length `travelled` ends on it.
-    [[nodiscard]] Rgb sent_back(const Hit& hit, const Element& leaf, float travelled, std::uint32_t index,
-                                const IndirectSettings& settings, unsigned bounce) const;
+    [[nodiscard]] Rgb sent_back(const Hit& hit, const Element& leaf, float travelled, const Sample& sample,
+                                const IndirectSettings& settings) const;
 
     const Hierarchy& h_;
     const RayScene& rays_;
@@ -57,6 +66,7 @@ private:
     DirectAtHit direct_;
     Rgb sky_;
     const MirrorLight* mirrors_;
+    CarriedByParticles carried_;
     Hierarchy bright_tree_; ///< empty when nothing stands out
     PointGather bright_gather_;
     float offset_ = 1e-4F;         ///< of ray origins from their surface, metres

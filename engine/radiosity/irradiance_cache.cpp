@@ -10,7 +10,7 @@ namespace {
 
 using Cell = glm::vec<3, std::int32_t>;
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
-constexpr std::size_t kGrain = 16;
+constexpr std::size_t kGrain = 4;
 constexpr float kWithinReach =
     0.45F; // weight of a record that a point needs at least: records overlap, so that gradients are known
 constexpr int kMostRounds = 4; // of looking where interpolation is off
@@ -74,9 +74,7 @@ bool IrradianceCache::sees(const Place& r, const vec3& point, const vec3& normal
            !rays_.occluded(r.position + r.normal * lift, point + normal * lift);
 }
 
-std::size_t IrradianceCache::find(const vec3& point, const vec3& normal, std::uint32_t skip, bool any,
-                                  std::array<Use, kMostUsed>& out) const {
-    std::size_t count = 0;
+template <typename Take> void IrradianceCache::each_near(const vec3& point, const vec3& normal, Take&& take) const {
     for (int level = 0; level < levels_; ++level) {
         const float size = 2.0F * settings_.smallest_reach * std::exp2(float(level));
         const auto it = cells_.find(cell_key(level, cell_of(point, size)));
@@ -84,22 +82,43 @@ std::size_t IrradianceCache::find(const vec3& point, const vec3& normal, std::ui
             continue;
         }
         for (const std::uint32_t index : it->second) {
-            const float w = index == skip ? 0.0F : weight(places_[index], point, normal);
-            if (!(w > (any ? kWithinReach : 0.0F)) || (count == kMostUsed && w <= out[count - 1].weight) ||
-                !sees(places_[index], point, normal)) {
-                continue;
+            if (!take(Use{index, weight(places_[index], point, normal)})) {
+                return;
             }
-            if (any) {
-                out[0] = {index, w};
-                return 1;
-            }
-            // Kept in order of weight; the lightest falls out.
-            std::size_t at = count < kMostUsed ? count++ : count - 1;
-            for (; at > 0 && out[at - 1].weight < w; --at) {
-                out[at] = out[at - 1];
-            }
-            out[at] = {index, w};
         }
+    }
+}
+
+bool IrradianceCache::reached(const vec3& point, const vec3& normal) const {
+    bool found = false;
+    each_near(point, normal, [&](const Use& use) {
+        found = use.weight > kWithinReach && sees(places_[use.record], point, normal);
+        return !found;
+    });
+    return found;
+}
+
+std::size_t IrradianceCache::find(const vec3& point, const vec3& normal, std::uint32_t skip,
+                                  std::array<Use, kMostUsed>& out) const {
+    thread_local std::vector<Use> heap; // the heaviest on top, of equal ones the first that was met
+    heap.clear();
+    each_near(point, normal, [&](const Use& use) {
+        if (use.weight > 0.0F && use.record != skip) {
+            heap.push_back(use);
+        }
+        return true;
+    });
+    const auto lighter = [](const Use& a, const Use& b) {
+        return a.weight != b.weight ? a.weight < b.weight : a.record > b.record;
+    };
+    std::make_heap(heap.begin(), heap.end(), lighter);
+    std::size_t count = 0;
+    while (count < kMostUsed && !heap.empty()) {
+        std::pop_heap(heap.begin(), heap.end(), lighter);
+        if (sees(places_[heap.back().record], point, normal)) {
+            out[count++] = heap.back();
+        }
+        heap.pop_back();
     }
     return count;
 }
@@ -114,7 +133,7 @@ Rgb IrradianceCache::predict(std::uint32_t record, const vec3& point) const {
 
 FieldSample IrradianceCache::at(const vec3& point, const vec3& normal) const {
     std::array<Use, kMostUsed> used;
-    const std::size_t count = find(point, normal, kNone, false, used);
+    const std::size_t count = find(point, normal, kNone, used);
     if (count == 0) {
         return sampler_(point, normal);
     }
@@ -137,12 +156,11 @@ FieldSample IrradianceCache::at(const vec3& point, const vec3& normal) const {
 // One round: of the points out of reach, some that are `separation` apart get records. `open` shrinks to what is left.
 bool IrradianceCache::add_round(std::span<const SurfacePoint> points, std::vector<std::uint32_t>& open, float separation,
                                 const RunContext& context) {
-    std::vector<std::uint8_t> reached(open.size(), 0);
+    std::vector<std::uint8_t> is_reached(open.size(), 0);
     parallel_chunks(open.size(), 256, [&](std::size_t begin, std::size_t end, std::size_t) {
-        std::array<Use, kMostUsed> used;
         for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
             const SurfacePoint& p = points[open[i]];
-            reached[i] = find(p.position, p.normal, kNone, true, used) > 0 ? 1 : 0;
+            is_reached[i] = reached(p.position, p.normal) ? 1 : 0;
         }
     });
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> taken;
@@ -151,7 +169,7 @@ bool IrradianceCache::add_round(std::span<const SurfacePoint> points, std::vecto
     const float room2 = separation * separation;
     StopCheck stop(context, kMeshStride);
     for (std::size_t i = 0; i < open.size() && !stop(); ++i) {
-        if (reached[i] != 0) {
+        if (is_reached[i] != 0) {
             continue;
         }
         left.push_back(open[i]);
@@ -225,13 +243,18 @@ void IrradianceCache::fit_gradients(std::size_t first, const RunContext& context
     error_.resize(records_.size(), -1.0F);
     std::vector<std::array<Rgb, 2>> gradient(records_.size());
     const std::size_t count_new = records_.size() - first;
-    parallel_chunks(count_new, 128, [&](std::size_t begin, std::size_t end, std::size_t) {
+    struct Neighbours {
+        std::size_t count = 0;
         std::array<Use, kMostUsed> used;
+    };
+    std::vector<Neighbours> neighbours(count_new);
+    parallel_chunks(count_new, 128, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = first + begin; i < first + end && !context.should_stop(); ++i) {
             const Record& r = records_[i];
             const Place& at = places_[i];
             gradient[i] = {Rgb(0.0F), Rgb(0.0F)};
-            const std::size_t count = find(places_[i].position, places_[i].normal, std::uint32_t(i), false, used);
+            auto& [count, used] = neighbours[i - first];
+            count = find(at.position, at.normal, std::uint32_t(i), used);
             if (count < 3) {
                 continue;
             }
@@ -263,10 +286,9 @@ void IrradianceCache::fit_gradients(std::size_t first, const RunContext& context
         records_[i].gradient = gradient[i];
     }
     parallel_chunks(count_new, 128, [&](std::size_t begin, std::size_t end, std::size_t) {
-        std::array<Use, kMostUsed> used;
         for (std::size_t i = first + begin; i < first + end && !context.should_stop(); ++i) {
             const Record& r = records_[i];
-            const std::size_t count = find(places_[i].position, places_[i].normal, std::uint32_t(i), false, used);
+            const auto& [count, used] = neighbours[i - first];
             Rgb sum(0.0F);
             float weights = 0.0F;
             for (std::size_t k = 0; k < count; ++k) {

@@ -68,9 +68,13 @@ private:
 
     [[nodiscard]] float weight(const Place& r, const vec3& point, const vec3& normal) const;
     [[nodiscard]] bool sees(const Place& r, const vec3& point, const vec3& normal) const;
-    /// Records that reach a point, the nearest kMostUsed, in order of index; `skip` is left out. Returns their number.
-    std::size_t find(const vec3& point, const vec3& normal, std::uint32_t skip, bool any,
-                     std::array<Use, kMostUsed>& out) const;
+    /// Calls `take` with the records whose cells a point lies in, and their weight there, until it returns false.
+    template <typename Take> void each_near(const vec3& point, const vec3& normal, Take&& take) const;
+    /// Some record reaches a point and can be seen from it.
+    [[nodiscard]] bool reached(const vec3& point, const vec3& normal) const;
+    /// The heaviest kMostUsed of the records that reach a point and can be seen from it, the heaviest first; `skip` is left
+    /// out. Returns their number.
+    std::size_t find(const vec3& point, const vec3& normal, std::uint32_t skip, std::array<Use, kMostUsed>& out) const;
     [[nodiscard]] Rgb predict(std::uint32_t record, const vec3& point) const;
     void insert(std::uint32_t record);
     bool add_round(std::span<const SurfacePoint> points, std::vector<std::uint32_t>& open, float separation,

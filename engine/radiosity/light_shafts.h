@@ -26,6 +26,12 @@ public:
 
     /// A box touches a shaft of this point, or of any within `radius` of it.
     [[nodiscard]] bool touched(const vec3& point, float radius, const Box3& box) const;
+    /// One of a few rays into the shafts that the boxes touch meets what moved, where it is now or where it stood
+    /// (RayScene::meets_moved() after look_back(), far cheaper than to look). False: but for slivers of a source the point's
+    /// light is what it was before anything moved. `normal`: unit, sources below its horizon do not count; 0: all
+    /// do. `closely`: more rays.
+    [[nodiscard]] bool meets_moved(const RayScene& rays, const SurfacePoint& point, std::span<const Box3> boxes,
+                                   bool closely) const;
     [[nodiscard]] bool empty() const { return suns_.empty() && balls_.empty() && !all_round_; }
 
 private:
@@ -37,7 +43,9 @@ private:
         vec3 centre;
         float radius;
     };
+    class Scout;
     [[nodiscard]] bool straight(const vec3& point, float radius, const Box3& box) const;
+    [[nodiscard]] bool over_mirror(const PlanarMirror& mirror, const vec3& point, float radius, const Box3& box) const;
 
     std::vector<Sun> suns_;
     std::vector<Ball> balls_;

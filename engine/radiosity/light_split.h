@@ -5,6 +5,7 @@
 #include "engine/radiosity/hierarchy.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace atrium {
@@ -19,6 +20,10 @@ LeafFlags named_emitters(const Hierarchy& hierarchy, const std::vector<std::uint
 
 /// The same for radiosity after a solution: spots in the sun, ceilings next to a lamp.
 LeafFlags bright_leaves(const Hierarchy& hierarchy, const std::vector<std::uint32_t>& room, float contrast);
+
+/// True where particles bring the light that a leaf sends over a mirror or through glass (`over`, the last thing that bent a
+/// ray before it came to the leaf, one of `bends`): whoever follows it back leaves it to them. Safe from any thread.
+using CarriedByParticles = std::function<bool(std::uint32_t leaf, const Hit& over, unsigned bends)>;
 
 /// A copy of the tree in which only flagged leaves shine: by their exitance M (`emission`), or by their radiosity.
 Hierarchy only_flagged(const Hierarchy& hierarchy, const LeafFlags& flags, bool emission);

@@ -31,8 +31,8 @@ bool crosses(const Ray& ray, const Box3& box) {
 } // namespace
 
 SightChange::SightChange(const Hierarchy& hierarchy, const RayScene& rays, std::span<const Displacement> displaced,
-                         std::span<const std::uint8_t> moved)
-    : h_(hierarchy), rays_(rays), moved_(moved.begin(), moved.end()) {
+                         std::span<const std::uint8_t> moved, CarriedByParticles carried)
+    : h_(hierarchy), rays_(rays), moved_(moved.begin(), moved.end()), carried_(std::move(carried)) {
     for (const Displacement& d : displaced) {
         for (Box3 box : {d.before, d.now}) {
             if (box.empty()) {
@@ -84,12 +84,19 @@ bool SightChange::follow(const Ray& ray, bool before, float weight, std::uint64_
     LightWay way;
     way.ray = ray;
     way.seed = seed; // the same choices before and now
+    Hit over;        // what bent the ray last
     for (unsigned met = 0; met < kMostSurfaces && out.count < kMostMet; ++met) {
         const Hit hit = before ? rays_.nearest_before(way.ray) : rays_.nearest(way.ray);
         if (!hit) {
             return true;
         }
-        out.met[out.count++] = {hit, weight * way.through};
+        bool carried = false;
+        if (way.bends > 0 && carried_) {
+            const std::uint32_t leaf = h_.leaf_at(hit.surface, hit.triangle, !hit.front, hit.barycentric);
+            carried = leaf != Element::kNone && carried_(leaf, over, way.bends);
+        }
+        out.met[out.count++] = {hit, weight * way.through, carried};
+        const unsigned bends = way.bends;
         if (!(onward_share(rays_, hit, way.ray.direction) > 0.0F)) {
             return true;
         }
@@ -98,6 +105,9 @@ bool SightChange::follow(const Ray& ray, bool before, float weight, std::uint64_
         }
         if (!send_on(rays_, hit, way)) {
             return true;
+        }
+        if (way.bends > bends) {
+            over = hit;
         }
     }
     return true;
@@ -167,7 +177,9 @@ Rgb SightChange::irradiance(const SurfacePoint& at, const Effort& effort, const 
             // The same pattern everywhere: neighbours err alike.
             shoot(index, at, sobol_owen2(k, 0, kSeed), float(rays), k, ray);
             for (std::size_t m = 0; m < ray.count; ++m) {
-                sum += ray.met[m].weight * radiosity(ray.met[m].hit);
+                if (!ray.met[m].carried) {
+                    sum += ray.met[m].weight * radiosity(ray.met[m].hit);
+                }
             }
         }
     }
@@ -185,6 +197,7 @@ SightChange::Rows SightChange::rows(const Hierarchy& h, std::span<const std::uin
     Rows out;
     out.first.assign(leaves.size() + 1, 0);
     out.whole.assign(leaves.size(), 0);
+    std::vector<std::vector<std::uint8_t>> marks(chunk_count(leaves.size(), kGrain)); // of what is carried
     std::vector<std::vector<Rows::Entry>> found(chunk_count(leaves.size(), kGrain));
     parallel_chunks(leaves.size(), kGrain, [&](std::size_t begin, std::size_t end, std::size_t chunk) {
         Ray1 ray;
@@ -207,6 +220,9 @@ SightChange::Rows SightChange::rows(const Hierarchy& h, std::span<const std::uin
                         const std::uint32_t leaf = h.leaf_at(hit.surface, hit.triangle, !hit.front, hit.barycentric);
                         if (leaf != Element::kNone) {
                             found[chunk].push_back({place[leaf], luminance(ray.met[m].weight)});
+                            if (carried_) {
+                                marks[chunk].push_back(ray.met[m].carried ? 1 : 0);
+                            }
                         }
                     }
                 }
@@ -232,15 +248,21 @@ SightChange::Rows SightChange::rows(const Hierarchy& h, std::span<const std::uin
         out.first[i + 1] += out.first[i];
     }
     out.entries.resize(out.first.back());
+    out.carried.resize(carried_ ? out.entries.size() : 0, 0);
     k = 0;
     for (std::size_t chunk = 0; chunk < found.size(); ++chunk) {
         auto next = found[chunk].begin();
+        auto next_mark = marks[chunk].begin();
         for (std::size_t i = chunk * kGrain; i < std::min(leaves.size(), (chunk + 1) * kGrain); ++i) {
             const auto to = out.entries.begin() + std::ptrdiff_t(out.first[i]);
             if (out.whole[i] == 0) {
                 const auto count = std::ptrdiff_t(out.first[i + 1] - out.first[i]);
                 std::copy_n(next, count, to);
                 next += count;
+                if (carried_) {
+                    std::copy_n(next_mark, count, out.carried.begin() + std::ptrdiff_t(out.first[i]));
+                    next_mark += count;
+                }
                 continue;
             }
             std::transform(around.seen.begin() + std::ptrdiff_t(around.first_seen[k]),
@@ -264,6 +286,16 @@ void SightChange::Rows::apply(const std::vector<Rgb>& radiosity, std::vector<Rgb
             irradiance[i] = whole[i] != 0 ? sum : irradiance[i] + sum;
         }
     });
+}
+
+Rgb SightChange::Rows::carried_light(const Hierarchy& h, std::span<const std::uint32_t> leaves, std::size_t leaf) const {
+    Rgb sum(0.0F);
+    for (std::size_t k = first[leaf]; k < first[leaf + 1] && !carried.empty(); ++k) {
+        if (carried[k] != 0) {
+            sum += h.elements[leaves[entries[k].other]].radiosity * entries[k].weight;
+        }
+    }
+    return sum;
 }
 
 std::vector<Rgb> solve_with_changed_sight(Hierarchy& h, const LeafExchange& exchange, const SightChange::Rows& rows,

@@ -4,6 +4,7 @@
 #include "engine/base/run_context.h"
 #include "engine/radiosity/hierarchy.h"
 #include "engine/radiosity/leaf_exchange.h"
+#include "engine/radiosity/light_split.h"
 
 #include <array>
 #include <functional>
@@ -28,9 +29,10 @@ using RadiosityAtHit = std::function<Rgb(const Hit&)>;
 /// RayScene::look_back(); immutable, safe from any thread.
 class SightChange {
 public:
-    /// `moved` = per surface of the ray scene, not 0 where it moved.
+    /// `moved` = per surface of the ray scene, not 0 where it moved. What is `carried` by particles is no part of points'
+    /// irradiance.
     SightChange(const Hierarchy& hierarchy, const RayScene& rays, std::span<const Displacement> displaced,
-                std::span<const std::uint8_t> moved);
+                std::span<const std::uint8_t> moved, CarriedByParticles carried = {});
 
     /// An upper bound of the share of the hemisphere's light (form factor) that comes from where something moved, for a
     /// point or any within `radius`; a zero normal stands for all directions.
@@ -53,9 +55,13 @@ public:
         };
         std::vector<std::size_t> first; ///< per leaf of the list, into `entries`; one more at the end
         std::vector<Entry> entries;
-        std::vector<std::uint8_t> whole; ///< per leaf: its row is all new and not what comes on top of that of K
+        std::vector<std::uint8_t> whole;   ///< per leaf: its row is all new and not what comes on top of that of K
+        std::vector<std::uint8_t> carried; ///< per entry, not 0: particles bring it where light is shown; or empty
         /// What the rows make of irradiances that K alone gives.
         void apply(const std::vector<Rgb>& radiosity, std::vector<Rgb>& irradiance) const;
+        /// What carried entries make of it at a leaf of the list.
+        [[nodiscard]] Rgb carried_light(const Hierarchy& hierarchy, std::span<const std::uint32_t> leaves,
+                                        std::size_t leaf) const;
     };
     /// `anew(element)`: leaves whose row is made anew, of `rays` rays all round from points that are not `covered`.
     [[nodiscard]] Rows rows(const Hierarchy& hierarchy, std::span<const std::uint32_t> leaves, const Effort& effort,
@@ -67,6 +73,7 @@ private:
     struct Met {
         Hit hit;
         Rgb weight;
+        bool carried = false; ///< see CarriedByParticles
     };
     /// Few surfaces pass light on; what is seen over more of them is left to the next complete solution.
     static constexpr std::size_t kMostMet = 12;
@@ -90,6 +97,7 @@ private:
     const RayScene& rays_;
     std::vector<Target> targets_;
     std::vector<std::uint8_t> moved_;
+    CarriedByParticles carried_;
 };
 
 /// Solves B = M + rho (D + (K + dK) B) on the leaves from their present radiosities, by minimal residuals: K + dK is not

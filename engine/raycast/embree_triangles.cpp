@@ -296,6 +296,13 @@ bool EmbreeTriangles::meets_moved(const vec3& from, const vec3& direction, float
     return any(moved_, moved_reach_) || any(before_, before_reach_);
 }
 
+bool EmbreeTriangles::still_blocks(const vec3& from, const vec3& direction, float tnear, float tfar) const {
+    const FloatTrapsOff quiet;
+    RTCRay query;
+    fill(query, from, direction, tnear, tfar, kOpaque);
+    return tnear < tfar && anything_on(still_, query);
+}
+
 TriangleHit EmbreeTriangles::nearest_before(const vec3& from, const vec3& direction, float tnear, float tfar) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);

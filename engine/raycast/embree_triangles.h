@@ -50,6 +50,8 @@ public:
     bool remember(std::span<const RaySurface> surfaces, const std::vector<std::uint8_t>& filters);
     /// Something that moved lies on the ray where it is now or, after remember(), where it was.
     [[nodiscard]] bool meets_moved(const vec3& from, const vec3& direction, float tnear, float tfar) const;
+    /// Something opaque lies on the ray that never moved.
+    [[nodiscard]] bool still_blocks(const vec3& from, const vec3& direction, float tnear, float tfar) const;
     /// As nearest() before anything moved; after remember().
     [[nodiscard]] TriangleHit nearest_before(const vec3& from, const vec3& direction, float tnear, float tfar) const;
 

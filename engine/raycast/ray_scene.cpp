@@ -51,6 +51,10 @@ bool RayScene::look_back() { return impl_->embree.remember(impl_->surfaces, impl
 bool RayScene::meets_moved(const Ray& ray) const {
     return impl_->embree.meets_moved(ray.origin, ray.direction, 0.0F, ray.tmax);
 }
+bool RayScene::still_blocks(const Ray& ray) const {
+    impl_->count_ray();
+    return impl_->embree.still_blocks(ray.origin, ray.direction, shadow_offset(ray.origin), ray.tmax);
+}
 
 bool RayScene::occluded(const vec3& from, const vec3& to) const { return max_component(transmittance(from, to)) <= 0.0F; }
 

@@ -130,6 +130,8 @@ public:
     /// The ray meets something that moved, where it is now or (after look_back()) where it stood: what it sees may have
     /// changed. Far cheaper than nearest().
     [[nodiscard]] bool meets_moved(const Ray& ray) const;
+    /// Something opaque that has not moved since the scene was built lies on the ray; a little at its start does not count.
+    [[nodiscard]] bool still_blocks(const Ray& ray) const;
     /// nearest() as it was before the moves; needs look_back(). The hit's normal is that of before; the positions and
     /// normals that this gives for hits are always those of now.
     [[nodiscard]] Hit nearest_before(const Ray& ray) const;

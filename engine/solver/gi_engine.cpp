@@ -232,7 +232,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         s.reflected = std::make_unique<IndirectGather>(
             s.hierarchy, *s.rays, bright_leaves(s.hierarchy, s.hierarchy.room, quality.bright_contrast),
             [&s](const Hit& hit, Rgb& light) { return s.mapped_light(hit, light); }, scene.environment.sky_radiance,
-            s.mirrors.get());
+            s.mirrors.get(), s.carried_by_particles());
         CacheSettings cache_settings = field.cache;
         cache_settings.light_floor = light_floor;
         IrradianceCache cache(
@@ -369,6 +369,10 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         }
     }
     s.solved = true;
+    timer.next("particles");
+    if (!s.trace_matt_particles(quality, options.seed, context)) {
+        return stopped();
+    }
     context.progress("layers", 0.6);
     LayerSettings final_layers = quality.layers;
     final_layers.keep_places = options.keep_for_updates;
@@ -378,6 +382,7 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         return stopped();
     }
     if (options.keep_for_updates) {
+        s.mirror_moved = false;
         s.live = std::make_unique<Impl::Live>();
         s.live->maps = std::move(live_maps);
         s.live->exchange = std::move(kept_exchange);
@@ -397,6 +402,9 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         shown->insides.reset();
         s.live->shown = std::move(shown);
         keep_question(s, scene, options);
+        if (s.live->exchange) { // while the finished picture is looked at, and not when the hand first moves
+            s.live->reflected = std::make_unique<ReflectedChange>(s.hierarchy, *s.rays, s.live->layers);
+        }
         impl_ = std::move(fresh);
     }
     context.progress("layers", 1.0);
@@ -420,6 +428,7 @@ SensorReading GiEngine::gather_free(const dvec3& point, const dvec3& normal) con
         g->max_cut *= 4;
         g->tolerance *= 0.25F;
     }
+    field.reflected.all_light = true;
     field.reflected.rays *= 8;
     field.reflected.max_rays *= 8;
     const vec3 at(point - impl_->rays->origin());

@@ -87,11 +87,12 @@ private:
     static void cover_vertices(Impl& impl, const RunContext& context);
     static Rgb sent_back(const Impl& impl, const Hit& hit);
     static std::vector<Rgb> solve_with_new_sight(Impl& impl, const SightChange& sight, bool in_a_hurry,
-                                                 const RunContext& context);
+                                                 std::vector<Rgb>& carried, const RunContext& context);
     static std::vector<std::vector<VertexChange>> look_from_vertices(Impl& impl, const SightChange& sight, bool in_a_hurry,
                                                                      const RunContext& context);
-    static Result<std::vector<std::uint32_t>> trace_again(Impl& impl, const Scene& scene, bool moves,
-                                                          UpdateStatistics& report, const RunContext& context);
+    static Result<void> trace_again(Impl& impl, const Scene& scene, bool moves, UpdateStatistics& report,
+                                    const RunContext& context);
+    static std::vector<std::uint32_t> surfaces_with_new_caustics(const Impl& impl);
     static void take_in(Impl& impl, std::uint32_t first_surface);
     static LayerSet lay_out(const Impl& impl, std::uint32_t first, std::uint32_t last, LayerSettings settings,
                             const RunContext& context);

@@ -164,8 +164,12 @@ bool GiEngine::map_added(Impl& s, const std::vector<std::uint8_t>& wanted, const
     }
     DirectMapSettings settings = live.quality.maps;
     settings.light_floor = live.light_floor;
+    std::vector<DirectPart> parts = s.direct_parts(s.field.direct);
+    for (DirectPart& part : parts) {
+        part.meets_moved = {}; // these maps are built with what moved in their light
+    }
     added.maps = std::make_unique<LiveDirectMaps>(
-        *s.rays, added.charts, s.direct_parts(s.field.direct),
+        *s.rays, added.charts, std::move(parts),
         [&](std::uint32_t surface) { return s.rays->surfaces()[surface].back_side; }, settings, context);
     const DirectMaps built = context.should_stop() ? DirectMaps{} : added.maps->build(0.1, 0.2);
     if (!built.complete) {

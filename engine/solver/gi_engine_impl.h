@@ -101,6 +101,8 @@ struct GiEngine::Impl {
     std::unique_ptr<MirrorLight> mirrors_before; ///< while a moved mirror's old light is taken away
     LightShafts mirror_shafts_before;
     LightShafts lamp_shafts, emitter_shafts, mirror_shafts, sky_shafts;
+    bool looks_back = false;   ///< RayScene::look_back() said so in the update at hand
+    bool mirror_moved = false; ///< since the complete solution
 
     // To be looked at; with `live` complete. Whoever shows it keeps it.
     std::shared_ptr<const Insides> tell_insides() {
@@ -112,30 +114,53 @@ struct GiEngine::Impl {
     // Direct light in parts, the sharpest and cheapest first; none that the scene does not have. `settings` must outlive it.
     [[nodiscard]] std::vector<DirectPart> direct_parts(const GatherSettings& settings) const {
         std::vector<DirectPart> parts;
+        const auto add = [this, &parts](DirectFunction light, const LightShafts& shafts) -> DirectPart& {
+            DirectPart& part = parts.emplace_back();
+            part.light = std::move(light);
+            part.touched = [&shafts](const vec3& p, float radius, const Box3& box) {
+                return shafts.touched(p, radius, box);
+            };
+            part.meets_moved = [this, &shafts](const SurfacePoint& p, std::span<const Box3> boxes, bool closely) {
+                return !looks_back || shafts.meets_moved(*rays, p, boxes, closely);
+            };
+            return parts.back();
+        };
         if (!punctual->lights().empty()) {
-            parts.push_back(DirectPart{
-                [&](const vec3& p, const vec3& n) { return still_lamps().lamps_irradiance(p, n, settings.sun_rays); }, false,
-                true, [this](const vec3& p, float radius, const Box3& box) { return lamp_shafts.touched(p, radius, box); }});
+            add([this, &settings](const vec3& p,
+                                  const vec3& n) { return still_lamps().lamps_irradiance(p, n, settings.sun_rays); },
+                lamp_shafts)
+                .sharp = true;
         }
         if (!emitters.empty()) {
-            parts.push_back(DirectPart{
-                [&](const vec3& p, const vec3& n) { return lamps->irradiance(p, n, settings); }, false, false,
-                [this](const vec3& p, float radius, const Box3& box) { return emitter_shafts.touched(p, radius, box); }});
+            add([this, &settings](const vec3& p, const vec3& n) { return lamps->irradiance(p, n, settings); },
+                emitter_shafts);
         }
         if (mirrors && (!punctual->lights().empty() || !emitters.empty())) {
-            parts.push_back(DirectPart{[&](const vec3& p, const vec3& n) {
-                                           return mirrors->irradiance(p, n, settings, &still_lamps(), lamps.get());
-                                       },
-                                       false, true,
-                                       [this](const vec3& p, float radius, const Box3& box) {
-                                           return mirror_shafts.touched(p, radius, box) ||
-                                                  mirror_shafts_before.touched(p, radius, box);
-                                       }});
+            DirectPart& part = add(
+                [this, &settings](const vec3& p, const vec3& n) {
+                    return mirrors->irradiance(p, n, settings, &still_lamps(), lamps.get());
+                },
+                mirror_shafts);
+            part.sharp = true;
+            part.straight = false;
+            for (const PlanarMirror& mirror : mirrors->mirrors().mirrors()) {
+                Box3& box = part.over.emplace_back();
+                for (const vec3& corner : mirror.corner) {
+                    box.add(corner);
+                }
+            }
+            part.touched = [this](const vec3& p, float radius, const Box3& box) {
+                return mirror_shafts.touched(p, radius, box) || mirror_shafts_before.touched(p, radius, box);
+            };
+            part.meets_moved = [this](const SurfacePoint& p, std::span<const Box3> boxes, bool closely) {
+                return !looks_back || mirror_moved || mirror_shafts.meets_moved(*rays, p, boxes, closely);
+            };
         }
         if (punctual->has_sky()) {
-            parts.push_back(DirectPart{
-                [&](const vec3& p, const vec3& n) { return punctual->sky_irradiance(p, n, settings.sky_rays); }, true, false,
-                [this](const vec3& p, float radius, const Box3& box) { return sky_shafts.touched(p, radius, box); }});
+            add([this, &settings](const vec3& p,
+                                  const vec3& n) { return punctual->sky_irradiance(p, n, settings.sky_rays); },
+                sky_shafts)
+                .soft = true;
         }
         return parts;
     }
@@ -164,6 +189,12 @@ struct GiEngine::Impl {
                (mirrors && mirror_shafts.touched(point, radius, box)) || mirror_shafts_before.touched(point, radius, box) ||
                sky_shafts.touched(point, radius, box);
     }
+    // Where direct_light_touched(): it is not what it was when all was complete.
+    [[nodiscard]] bool direct_light_meets_moved(const SurfacePoint& p, std::span<const Box3> boxes, bool closely) const {
+        const auto any = [&](const LightShafts& shafts) { return shafts.meets_moved(*rays, p, boxes, closely); };
+        return !looks_back || mirror_moved || (live && live->lamps) || any(lamp_shafts) || any(emitter_shafts) ||
+               (mirrors && any(mirror_shafts)) || any(sky_shafts);
+    }
     [[nodiscard]] DirectSample direct_light(const vec3& point, const vec3& normal, const GatherSettings& settings) const {
         DirectSample out = direct->irradiance(point, normal, settings);
         if (mirrors) {
@@ -182,7 +213,8 @@ struct GiEngine::Impl {
     [[nodiscard]] std::unique_ptr<IndirectGather> gather_reflected() const {
         return std::make_unique<IndirectGather>(
             hierarchy, *rays, bright_leaves(hierarchy, hierarchy.room, live->quality.bright_contrast),
-            [this](const Hit& hit, Rgb& light) { return mapped_light(hit, light); }, sky_radiance, mirrors.get());
+            [this](const Hit& hit, Rgb& light) { return mapped_light(hit, light); }, sky_radiance, mirrors.get(),
+            carried_by_particles());
     }
 
     // Direct light at a point of a charted surface, from its map.
@@ -335,9 +367,7 @@ struct GiEngine::Impl {
         const auto element = std::uint32_t(&e - hierarchy.elements.data());
         for (std::uint32_t i = 0; map && i < kSamples; ++i) {
             const vec2 u = sobol_owen2(i, 0, std::uint32_t(e.path));
-            const vec3 from_corner = sample_point(hierarchy, *rays, element, u, false).position - chart.origin;
-            const vec2 at(glm::dot(from_corner, chart.axis_u), glm::dot(from_corner, chart.axis_v));
-            const Rgb light = map->irradiance(vec2(float(chart.tile_u), float(chart.tile_v)) + at / chart.scale);
+            const Rgb light = map->irradiance(place_on(chart, sample_point(hierarchy, *rays, element, u, false).position));
             sum += light;
             sum2 += double(luminance(light)) * luminance(light);
         }
@@ -409,6 +439,28 @@ struct GiEngine::Impl {
         return particles->complete();
     }
 
+    [[nodiscard]] ParticleScene particle_scene(const DirectLight& lights) const {
+        return {*rays,     *targets, lights, emitters, [this](const Hit& hit) { return mirrors && mirrors->carries(hit); },
+                &hierarchy};
+    }
+
+    // Coordinates of a point of a flat chart in chart space.
+    [[nodiscard]] static vec2 place_on(const Chart& chart, const vec3& position) {
+        const vec3 from_corner = position - chart.origin;
+        const vec2 at(glm::dot(from_corner, chart.axis_u), glm::dot(from_corner, chart.axis_v));
+        return vec2(float(chart.tile_u), float(chart.tile_v)) + at / chart.scale;
+    }
+
+    // Images of matt surfaces (matt_images.cpp). Once it is known how bright these are: particles of those that stand out;
+    // false when stopped. The leaves' exchange has this light too: it is only shown in another way.
+    bool trace_matt_particles(const QualitySettings& quality, std::uint32_t seed, const RunContext& context);
+    // What leaves send point by point as far as their light maps tell: shadows on a panel are seen in its image.
+    [[nodiscard]] MattDetail matt_detail(const std::vector<std::uint32_t>& leaves) const;
+    // What the hemisphere leaves to particles of matt surfaces; empty where there are none.
+    [[nodiscard]] CarriedByParticles carried_by_particles() const;
+    // Images become as bright as the surfaces are now; with `live`. What of the leaves' light they show.
+    MattLight brighten_images(double tolerance) const;
+
     // What particles brought joins the light of the leaves that they landed on.
     void light_leaves_by_particles() {
         if (!particles) {
@@ -418,6 +470,9 @@ struct GiEngine::Impl {
             e.caustic = Rgb(0.0F);
         }
         for (const Landing& l : particles->landings()) {
+            if (particles->matt(particles->links()[l.link])) {
+                continue; // the exchange has it
+            }
             const std::uint32_t leaf = hierarchy.leaf_at(l.surface, l.triangle, l.back, l.barycentric);
             if (leaf != Element::kNone) {
                 hierarchy.elements[leaf].caustic += particles->power(l) / hierarchy.elements[leaf].area;

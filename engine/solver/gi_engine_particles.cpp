@@ -5,13 +5,13 @@
 
 namespace atrium {
 
-// Surfaces whose caustics are to be made anew. An error where the particles do not fit the scene any more, or when stopped.
-Result<std::vector<std::uint32_t>> GiEngine::trace_again(Impl& s, const Scene& scene, bool moves, UpdateStatistics& report,
-                                                         const RunContext& context) {
+// Marks surfaces whose caustics are to be made anew. An error where the particles do not fit the scene any more, or when
+// stopped.
+Result<void> GiEngine::trace_again(Impl& s, const Scene& scene, bool moves, UpdateStatistics& report,
+                                   const RunContext& context) {
     Impl::Live& live = *s.live;
-    std::vector<std::uint32_t> out;
     if (!s.particles) {
-        return out;
+        return {};
     }
     std::vector<CausticWish> wishes = caustic_wishes(scene, *s.rays);
     live.new_caustics.resize(s.rays->surfaces().size(), 0); // should this update be stopped
@@ -28,8 +28,10 @@ Result<std::vector<std::uint32_t>> GiEngine::trace_again(Impl& s, const Scene& s
         }
         s.targets->follow(*s.rays, moved_surfaces);
         const std::unique_ptr<DirectLight> lamps = s.lamps_of_particles();
-        const ParticleScene particle_scene{*s.rays, *s.targets, *lamps, s.emitters,
-                                           [&s](const Hit& hit) { return s.mirrors && s.mirrors->carries(hit); }};
+        ParticleScene particle_scene = s.particle_scene(*lamps);
+        if (s.particles->any_matt()) {
+            particle_scene.detail = s.matt_detail(s.particles->matt_leaves());
+        }
         const ParticleUpdate particles = s.particles->update(particle_scene, live.owed.boxes, moved_surfaces, context);
         if (!particles.fits) {
             return fail("", "", "the sources of caustics changed", "A whole new solution answers");
@@ -45,8 +47,13 @@ Result<std::vector<std::uint32_t>> GiEngine::trace_again(Impl& s, const Scene& s
             live.new_caustics[i] = 1;
         }
     }
-    for (std::uint32_t i = 0; i < live.new_caustics.size(); ++i) {
-        if (live.new_caustics[i] != 0) {
+    return {};
+}
+
+std::vector<std::uint32_t> GiEngine::surfaces_with_new_caustics(const Impl& s) {
+    std::vector<std::uint32_t> out;
+    for (std::uint32_t i = 0; i < s.live->new_caustics.size(); ++i) {
+        if (s.live->new_caustics[i] != 0) {
             out.push_back(i);
         }
     }

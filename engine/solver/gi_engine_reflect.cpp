@@ -1,5 +1,7 @@
 // Reflected light that follows the hand: what leaves send on now, and what they see otherwise than before.
 #include "engine/base/parallel.h"
+#include "engine/base/rng.h"
+#include "engine/optics/specular.h"
 #include "engine/radiosity/leaf_surroundings.h"
 #include "engine/solver/gi_engine_impl.h"
 
@@ -18,8 +20,12 @@ struct ReflectEffort {
     double tolerance;
     int most_sweeps;
 };
-constexpr ReflectEffort kHurried{{64.0F, 1, 16}, {192.0F, 4, 160}, 0.015F, 2.0F, 4000, 0.01, 8};
-constexpr ReflectEffort kExact{{256.0F, 4, 64}, {512.0F, 8, 256}, 0.002F, 0.05F, 1U << 20, 1e-4, 60};
+constexpr ReflectEffort kHurried{{64.0F, 1, 16}, {96.0F, 4, 96}, 0.015F, 2.0F, 4000, 0.01, 8};
+constexpr ReflectEffort kExact{{256.0F, 4, 64}, {512.0F, 8, 256}, 0.002F, 0.4F, 1U << 20, 1e-4, 60};
+
+// Changes of what matt surfaces send that their images do not show, relative.
+constexpr double kHurriedImages = 0.05;
+constexpr double kExactImages = 0.002;
 
 constexpr std::size_t kMostBodies = 4; // that are looked at singly
 
@@ -52,8 +58,9 @@ Rgb GiEngine::sent_back(const Impl& s, const Hit& hit) {
 }
 
 // Leaves of what moved, and of what something lay or lies on, look around anew; all others only towards where it is and was.
+// `carried` = of the light that changed sight makes, per leaf, what particles bring; empty where there is none.
 std::vector<Rgb> GiEngine::solve_with_new_sight(Impl& s, const SightChange& sight, bool in_a_hurry,
-                                                const RunContext& context) {
+                                                std::vector<Rgb>& carried, const RunContext& context) {
     Impl::Live& live = *s.live;
     const ReflectEffort& effort = in_a_hurry ? kHurried : kExact;
     const float reach = live.quality.maps.cover_reach;
@@ -78,7 +85,14 @@ std::vector<Rgb> GiEngine::solve_with_new_sight(Impl& s, const SightChange& sigh
     if (context.should_stop()) {
         return {};
     }
-    return solve_with_changed_sight(s.hierarchy, *live.exchange, rows, effort.tolerance, effort.most_sweeps, context);
+    std::vector<Rgb> beside =
+        solve_with_changed_sight(s.hierarchy, *live.exchange, rows, effort.tolerance, effort.most_sweeps, context);
+    if (!rows.carried.empty()) {
+        for (std::size_t i = 0; i < beside.size(); ++i) {
+            carried.push_back(rows.carried_light(s.hierarchy, live.exchange->leaves(), i));
+        }
+    }
+    return beside;
 }
 
 // Vertices that see something of what moved look for themselves; those that see much, and those on it, gather all anew,
@@ -92,6 +106,11 @@ std::vector<std::vector<VertexChange>> GiEngine::look_from_vertices(Impl& s, con
         std::uint32_t layer = 0;
         VertexChange change;
     };
+    // Where light goes over what moved, changed sight does not know: see SightChange.
+    constexpr float kWholeBesideMirrors = 0.05F;
+    const bool mirrors = !in_a_hurry && std::any_of(live.displaced.begin(), live.displaced.end(),
+                                                    [&](const auto& d) { return is_specular(s.rays->material(d.first)); });
+    const float whole_share = mirrors ? std::min(effort.whole_share, kWholeBesideMirrors) : effort.whole_share;
     std::vector<std::vector<Look>> found(live.layers.surfaces.size());
     parallel_chunks(found.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
@@ -114,7 +133,7 @@ std::vector<std::vector<VertexChange>> GiEngine::look_from_vertices(Impl& s, con
                         continue;
                     }
                     const float share = sight.share(side[v].position, side[v].normal);
-                    if (moved || places.was_covered(v, back) || share > effort.whole_share) {
+                    if (moved || places.was_covered(v, back) || share > whole_share) {
                         found[i].push_back({2.0F, std::uint32_t(i), {v, back, Kind::Whole, Rgb(0.0F)}});
                     } else if (share > effort.least_share) {
                         found[i].push_back({share, std::uint32_t(i), {v, back, Kind::Sight, Rgb(0.0F)}});
@@ -194,6 +213,20 @@ void GiEngine::light_leaves_again(Impl& s, const LightChange& change, const RunC
     Impl::Live& live = *s.live;
     const std::vector<std::uint32_t>& leaves = live.exchange->leaves();
     live.leaf_looked.resize(s.hierarchy.elements.size(), 0);
+    // From any of the places that its light is sampled at.
+    const auto meets_moved = [&](std::uint32_t leaf) {
+        const Element& e = s.hierarchy.elements[leaf];
+        const bool beside = std::any_of(change.boxes.begin(), change.boxes.end(), [&](const Box3& box) {
+            return distance_to(box, e.centre) <= live.quality.maps.cover_reach + e.radius;
+        });
+        for (unsigned k = 0, most = s.samples_of(e, live.quality); !beside && k < most; ++k) {
+            const vec2 u = sobol_owen2(k, 0, std::uint32_t(e.path));
+            if (s.direct_light_meets_moved(sample_point(s.hierarchy, *s.rays, leaf, u, false), change.boxes, change.exact)) {
+                return true;
+            }
+        }
+        return beside;
+    };
     parallel_chunks(leaves.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
             Element& e = s.hierarchy.elements[leaves[i]];
@@ -206,10 +239,11 @@ void GiEngine::light_leaves_again(Impl& s, const LightChange& change, const RunC
                 continue;
             }
             const std::uint32_t surface = e.kind == Element::Kind::Patch ? e.surface : s.hierarchy.faces[e.triangle].surface;
-            const bool reached =
+            const bool touched =
                 change.moved[surface] != 0 || std::any_of(change.boxes.begin(), change.boxes.end(), [&](const Box3& box) {
                     return s.direct_light_touched(e.centre, e.radius, box);
                 });
+            const bool reached = touched && (change.moved[surface] != 0 || meets_moved(leaves[i]));
             if (reached || live.leaf_looked[leaves[i]] != 0) {
                 (void)s.light_leaf(leaves[i], live.quality);
                 if (live.lamps) {
@@ -233,14 +267,15 @@ void GiEngine::reflect_change(Impl& s, bool in_a_hurry, const RunContext& contex
         for (const auto& [surface, d] : live.displaced) {
             moved[surface] = 1;
         }
-        sight = std::make_unique<SightChange>(s.hierarchy, *s.rays, bodies_of(live.displaced), moved);
+        sight =
+            std::make_unique<SightChange>(s.hierarchy, *s.rays, bodies_of(live.displaced), moved, s.carried_by_particles());
     }
-    std::vector<Rgb> beside;
+    std::vector<Rgb> beside, carried;
     std::vector<std::vector<VertexChange>> known;
+    const ReflectEffort& effort = in_a_hurry ? kHurried : kExact;
     if (sight) {
-        beside = solve_with_new_sight(s, *sight, in_a_hurry, context);
+        beside = solve_with_new_sight(s, *sight, in_a_hurry, carried, context);
     } else {
-        const ReflectEffort& effort = in_a_hurry ? kHurried : kExact;
         solve_radiosity(s.hierarchy, *live.exchange, effort.tolerance, effort.most_sweeps, context);
     }
     std::vector<Rgb> beside_of_elements;
@@ -250,13 +285,18 @@ void GiEngine::reflect_change(Impl& s, bool in_a_hurry, const RunContext& contex
             beside_of_elements[leaves[i]] = beside[i];
         }
     }
+    MattLight images = s.brighten_images(in_a_hurry ? kHurriedImages : kExactImages);
+    for (std::size_t i = 0; i < carried.size(); ++i) {
+        images.now[leaves[i]] += carried[i];
+        beside_of_elements[leaves[i]] -= carried[i];
+    }
     if (sight && !context.should_stop()) {
         known = look_from_vertices(s, *sight, in_a_hurry, context);
     }
     if (context.should_stop()) {
         return;
     }
-    live.reflected->add_to(s.hierarchy, beside_of_elements, known, live.layers.surfaces);
+    live.reflected->add_to(s.hierarchy, beside_of_elements, known, live.layers.surfaces, images);
 }
 
 } // namespace atrium

@@ -112,8 +112,8 @@ void GiEngine::cover_vertices(Impl& s, const RunContext& context) {
                                                             [&](const Box3& box) { return distance_to(box, p) <= reach; }));
                     if (near) {
                         const auto bit = std::uint8_t(back ? 2U * VertexPlaces::kCovered : VertexPlaces::kCovered);
-                        const bool covered = is_covered(*s.rays, p, side[v].normal, reach);
-                        places.state[v] = std::uint8_t(covered ? places.state[v] | bit : places.state[v] & ~bit);
+                        const bool covered = is_out_of_sight(*s.rays, p, side[v].normal, reach);
+                        places.state[v] = std::uint16_t(covered ? places.state[v] | bit : places.state[v] & ~bit);
                     }
                 }
             }
@@ -128,13 +128,18 @@ void GiEngine::show_direct_light(Impl& s, const LightChange& change, const RunCo
         float angle = 0.0F; ///< how large what moved looks from there
         std::uint32_t layer = 0, vertex = 0;
         bool back = false;
+        bool met = false; ///< something that moved lies between it and a source, or beside it
         Rgb light{0.0F};
     };
     std::vector<std::vector<Look>> found(live.layers.surfaces.size());
     parallel_chunks(found.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
-            const VertexPlaces& places = live.layers.places[i];
+            VertexPlaces& places = live.layers.places[i];
             if (places.surface < live.lit_anew.size() && live.lit_anew[places.surface] != 0) {
+                for (std::size_t k = 0; k < places.state.size(); ++k) {
+                    places.set_differs(k, false, true);
+                    places.set_differs(k, true, true);
+                }
                 continue;
             }
             const bool moved = change.moved[places.surface] != 0;
@@ -143,25 +148,28 @@ void GiEngine::show_direct_light(Impl& s, const LightChange& change, const RunCo
                 if (places.shows_direct(k, false)) {
                     bounds.add(places.front[k].position);
                 }
-                for (const bool back : {false, true}) {
-                    if (change.exact && places.stale(k, back) && places.shows_direct(k, back)) {
-                        found[i].push_back({2.0F, std::uint32_t(i), std::uint32_t(k), back, Rgb(0.0F)});
-                    }
-                }
             }
-            for (const Box3& box : change.boxes) {
-                if (!moved && (bounds.empty() || !s.direct_light_touched(bounds.centre(), 0.5F * bounds.diagonal(), box))) {
-                    continue;
-                }
+            const bool reached =
+                moved || (!bounds.empty() && std::any_of(change.boxes.begin(), change.boxes.end(), [&](const Box3& box) {
+                    return s.direct_light_touched(bounds.centre(), 0.5F * bounds.diagonal(), box);
+                }));
+            for (std::uint32_t k = 0; k < places.front.size(); ++k) {
                 for (const bool back : {false, true}) {
-                    const std::vector<SurfacePoint>& side = places.side(back);
-                    for (std::uint32_t k = 0; k < side.size(); ++k) {
-                        const SurfacePoint& p = side[k];
-                        if (places.shows_direct(k, back) && (moved || s.direct_light_touched(p.position, 0.0F, box))) {
+                    if (k >= places.side(back).size() || !places.shows_direct(k, back)) {
+                        continue;
+                    }
+                    const SurfacePoint& p = places.side(back)[k];
+                    float angle = change.exact && places.stale(k, back) ? 2.0F : 0.0F;
+                    bool met = moved;
+                    for (const Box3& box : change.boxes) {
+                        if (reached && (moved || s.direct_light_touched(p.position, 0.0F, box))) {
                             const float distance = glm::length(box.centre() - p.position);
-                            found[i].push_back(
-                                {box.diagonal() / std::max(distance, 1e-3F), std::uint32_t(i), k, back, Rgb(0.0F)});
+                            angle = std::max(angle, box.diagonal() / std::max(distance, 1e-3F));
+                            met = met || distance_to(box, p.position) <= live.quality.layers.cover_reach;
                         }
+                    }
+                    if (angle > 0.0F) {
+                        found[i].push_back({angle, std::uint32_t(i), k, back, met, Rgb(0.0F)});
                     }
                 }
             }
@@ -172,23 +180,35 @@ void GiEngine::show_direct_light(Impl& s, const LightChange& change, const RunCo
         looks.insert(looks.end(), of.begin(), of.end());
     }
     const auto place = [](const Look& l) { return std::tuple(l.layer, l.back, l.vertex); };
-    std::sort(looks.begin(), looks.end(),
-              [&](const Look& a, const Look& b) { return place(a) != place(b) ? place(a) < place(b) : a.angle > b.angle; });
-    looks.erase(std::unique(looks.begin(), looks.end(), [&](const Look& a, const Look& b) { return place(a) == place(b); }),
-                looks.end());
+    // Of very many those from where most is seen of what moved; the others wait until the light settles.
+    constexpr std::size_t kMost = 3000;
+    if (!change.exact && looks.size() > kMost) {
+        std::sort(looks.begin(), looks.end(), [&](const Look& a, const Look& b) {
+            return a.angle != b.angle ? a.angle > b.angle : place(a) < place(b);
+        });
+        looks.resize(kMost);
+    }
+    std::sort(looks.begin(), looks.end(), [&](const Look& a, const Look& b) { return place(a) < place(b); });
+    parallel_chunks(looks.size(), 16, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
+            Look& l = looks[i];
+            const SurfacePoint& p = live.layers.places[l.layer].side(l.back)[l.vertex];
+            l.met = l.met || s.direct_light_meets_moved(p, change.boxes, change.exact);
+        }
+    });
+    // What met something when it was looked at last, and meets nothing now, gets back the light that it had.
+    std::erase_if(looks, [&](const Look& l) {
+        VertexPlaces& places = live.layers.places[l.layer];
+        const bool differs = places.differs(l.vertex, l.back) || places.stale(l.vertex, l.back);
+        places.set_differs(l.vertex, l.back, l.met);
+        return !l.met && !differs;
+    });
     const auto mark = [&](bool stale) {
         for (const Look& l : looks) {
             live.layers.places[l.layer].set_stale(l.vertex, l.back, stale);
         }
     };
     mark(true); // until all of them were really looked at
-    // Of very many those from where most is seen of what moved; the others wait for the full solution.
-    constexpr std::size_t kMost = 3000;
-    if (!change.exact && looks.size() > kMost) {
-        std::stable_sort(looks.begin(), looks.end(), [](const Look& a, const Look& b) { return a.angle > b.angle; });
-        looks.resize(kMost);
-        std::sort(looks.begin(), looks.end(), [&](const Look& a, const Look& b) { return place(a) < place(b); });
-    }
     parallel_chunks(looks.size(), 16, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !context.should_stop(); ++i) {
             const SurfacePoint& p = live.layers.places[looks[i].layer].side(looks[i].back)[looks[i].vertex];
@@ -282,6 +302,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     if (!moved) {
         return give_up("more than places and colours changed");
     }
+    s.looks_back = s.rays->look_back();
     LightChange& change = live.owed;
     const bool moves = !moved->empty() || !change.boxes.empty() || follow_lamps;
     if (moves && live.relight) {
@@ -333,6 +354,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         live.displaced.try_emplace(m.surface, Displacement{m.before, m.after}).first->second.now = absent ? Box3{} : m.after;
         mirror_moved = mirror_moved || is_specular(material);
     }
+    s.mirror_moved = s.mirror_moved || mirror_moved;
     if (mirror_moved && s.mirrors) {
         if (!s.mirrors_before) { // what it threw where it stood has to go too
             s.mirrors_before = std::move(s.mirrors);
@@ -367,6 +389,8 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     }
     LightChange look_at = change;
     look_at.exact = options.settle;
+    look_at.looks_back = s.looks_back;
+    look_at.mirror_moved = s.mirror_moved;
     look_at.anew = follow_lamps ? live.lamps->part : LightChange::kNone;
     if (options.settle) {
         for (const auto& [surface, d] : live.displaced) {
@@ -407,9 +431,8 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
         context.progress("particles", 0.4);
         timer.next("particles");
     }
-    const auto new_textures = trace_again(s, scene, moves, report, context);
-    if (!new_textures) {
-        return context.should_stop() ? tl::unexpected(new_textures.error()) : give_up(new_textures.error().what);
+    if (const auto traced = trace_again(s, scene, moves, report, context); !traced) {
+        return context.should_stop() ? tl::unexpected(traced.error()) : give_up(traced.error().what);
     }
     if (live.exchange) {
         context.progress("gather", 0.6);
@@ -432,9 +455,10 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
             return fail("", "", "stopped before the light had followed", "The next update goes on");
         }
     }
-    if (s.particles && (moves || !new_textures->empty())) {
+    const std::vector<std::uint32_t> new_textures = surfaces_with_new_caustics(s);
+    if (s.particles && (moves || !new_textures.empty())) {
         timer.next("caustics");
-        const CausticReuse reuse{s.caustics, *new_textures};
+        const CausticReuse reuse{s.caustics, new_textures};
         CausticLight light =
             build_caustic_light(*s.rays, s.charts, *s.particles, s.caustic_settings, &reuse, s.wishes, context);
         if (context.should_stop()) {
@@ -450,7 +474,7 @@ Result<std::shared_ptr<const Solution>> GiEngine::update(const Scene& scene, con
     if (context.should_stop()) {
         return fail("", "", "stopped before the light had followed", "The next update goes on");
     }
-    if (s.particles && (moves || !new_textures->empty()) &&
+    if (s.particles && (moves || !new_textures.empty()) &&
         !attach_caustics(live.layers.surfaces, *s.rays, *s.particles, s.caustics, context)) {
         return fail("", "", "stopped before the light had followed", "The next update goes on");
     }

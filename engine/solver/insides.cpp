@@ -1,5 +1,7 @@
 #include "engine/solver/insides.h"
 
+#include "engine/particles/emission.h"
+
 #include <algorithm>
 
 namespace atrium {
@@ -47,6 +49,8 @@ std::shared_ptr<const Insides> make_insides(const RayScene& rays, const Hierarch
         return out;
     }
     out->particles = particles->emitted();
+    out->paths = std::make_shared<const ParticlePaths>(particles->paths());
+    out->reach = scene_reach(rays);
     out->passage_cells = particles->octree() ? particles->octree()->cells() : 0;
     for (const std::size_t i : sample_landings(*particles, *targets, rays.surfaces().size())) {
         const Landing& l = particles->landings()[i];

@@ -28,7 +28,9 @@ struct Insides {
     std::shared_ptr<const LeafExchange> exchange; ///< null where nothing is lit
     std::vector<ParticleWay> ways;                ///< a sample: see kWays
     std::uint64_t particles = 0;                  ///< emitted, of which `ways` are some
-    std::size_t passage_cells = 0;                ///< of the octree of passing particles; 0 = they are found by a scan
+    std::shared_ptr<const ParticlePaths> paths;   ///< of all of them; null where there are none
+    float reach = 0.0F;                           ///< of the scene, metres, as the octree of passing particles needs it
+    std::size_t passage_cells = 0;                ///< of that octree in the engine; 0 = they are found by a scan there
 
     /// As many ways at most for every surface, of the particles that landed on it and of those that were aimed at it.
     static constexpr std::size_t kWays = 400;

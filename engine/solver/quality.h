@@ -31,6 +31,7 @@ struct QualitySettings {
     FieldSettings leaf_field;       ///< of the means on leaves
     float emitter_contrast = 4.0F;  ///< exitance over its room's mean that makes an emitter a named one
     float bright_contrast = 4.0F;   ///< radiosity over its room's mean that makes a leaf stand out
+    float image_contrast = 3.0F;    ///< the same that makes particles bring images of it over mirrors and through glass
     int refine_rounds = 2;          ///< refinements, each followed by a solve
     double solver_tolerance = 1e-4; ///< relative residual
     int max_iterations = 400;

@@ -20,6 +20,11 @@ Rgb followed(const Rgb& vertex, const Rgb& before, const Rgb& now, float dark) {
     return glm::max(vertex + less * share + more * (0.5F * (Rgb(1.0F) + glm::min(share, Rgb(kMostShare)))), Rgb(0.0F));
 }
 
+// Irradiance of a leaf but for what `part` (may be empty) has of it.
+Rgb without(const Rgb& all, const std::vector<Rgb>& part, std::uint32_t leaf) {
+    return leaf < part.size() ? glm::max(all - part[leaf], Rgb(0.0F)) : all;
+}
+
 } // namespace
 
 ReflectedChange::ReflectedChange(const Hierarchy& h, const RayScene& rays, const LayerSet& layers) {
@@ -84,13 +89,17 @@ void ReflectedChange::take_layer(const Hierarchy& h, const RayScene& rays, const
 }
 
 // Mean change of the triangles around each vertex, by area; nothing where all of it is only a trace.
-std::vector<ReflectedChange::OfVertex> ReflectedChange::of_vertices(const Hierarchy& h, const std::vector<Rgb>& beside,
+std::vector<ReflectedChange::OfVertex> ReflectedChange::of_vertices(const Hierarchy& h, const OfLeaves& leaves,
                                                                     const DisplayMesh& mesh, std::size_t layer,
                                                                     bool back) const {
     const Side& side = back ? surfaces_[layer].back : surfaces_[layer].front;
     std::vector<OfVertex> out(side.base.size());
+    const auto irradiance_of = [&](std::uint32_t leaf) {
+        return without(h.elements[leaf].irradiance, leaves.elsewhere.now, leaf);
+    };
+    const auto irradiance_before = [&](std::uint32_t leaf) { return without(before_[leaf], leaves.elsewhere.first, leaf); };
     const bool any = std::any_of(side.leaf.begin(), side.leaf.end(), [&](std::uint32_t leaf) {
-        return leaf != Element::kNone && luminance(glm::abs(h.elements[leaf].irradiance - before_[leaf])) > trace_;
+        return leaf != Element::kNone && luminance(glm::abs(irradiance_of(leaf) - irradiance_before(leaf))) > trace_;
     });
     if (!any) {
         return out;
@@ -100,13 +109,13 @@ std::vector<ReflectedChange::OfVertex> ReflectedChange::of_vertices(const Hierar
         if (leaf == Element::kNone) {
             continue;
         }
-        const Rgb sight = beside.empty() ? Rgb(0.0F) : beside[leaf];
+        const Rgb sight = leaves.beside.empty() ? Rgb(0.0F) : leaves.beside[leaf];
         const std::uint32_t* v = &mesh.indices[3 * t];
         const float own = glm::length(
             glm::cross(mesh.positions[v[1]] - mesh.positions[v[0]], mesh.positions[v[2]] - mesh.positions[v[0]]));
         for (int k = 0; k < 3; ++k) {
-            out[v[k]].before += before_[leaf] * own;
-            out[v[k]].now += h.elements[leaf].irradiance * own;
+            out[v[k]].before += irradiance_before(leaf) * own;
+            out[v[k]].now += irradiance_of(leaf) * own;
             out[v[k]].sight += sight * own;
             out[v[k]].area += own;
         }
@@ -122,11 +131,11 @@ std::vector<ReflectedChange::OfVertex> ReflectedChange::of_vertices(const Hierar
 }
 
 // The leaves' word, but for what a vertex knows itself.
-void ReflectedChange::changed(const Hierarchy& h, const std::vector<Rgb>& beside, const DisplayMesh& mesh, std::size_t layer,
+void ReflectedChange::changed(const Hierarchy& h, const OfLeaves& leaves, const DisplayMesh& mesh, std::size_t layer,
                               const std::vector<VertexChange>& known, bool back, std::vector<Rgb>& out) const {
     const Side& side = back ? surfaces_[layer].back : surfaces_[layer].front;
     out = side.base;
-    const std::vector<OfVertex> said = of_vertices(h, beside, mesh, layer, back);
+    const std::vector<OfVertex> said = of_vertices(h, leaves, mesh, layer, back);
     std::vector<std::uint8_t> covered(out.size(), 0);
     bool any_covered = false;
     auto next = known.begin();
@@ -175,7 +184,9 @@ void ReflectedChange::changed(const Hierarchy& h, const std::vector<Rgb>& beside
 
 std::size_t ReflectedChange::add_to(const Hierarchy& h, const std::vector<Rgb>& beside,
                                     const std::vector<std::vector<VertexChange>>& known,
-                                    std::vector<std::shared_ptr<const SurfaceLayer>>& layers) const {
+                                    std::vector<std::shared_ptr<const SurfaceLayer>>& layers,
+                                    const MattLight& elsewhere) const {
+    const OfLeaves leaves{beside, elsewhere};
     static const std::vector<VertexChange> kNothing;
     std::vector<std::uint8_t> new_ones(layers.size(), 0);
     parallel_chunks(layers.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -183,9 +194,9 @@ std::size_t ReflectedChange::add_to(const Hierarchy& h, const std::vector<Rgb>& 
             const SurfaceLayer& old = *layers[i];
             const std::vector<VertexChange>& of_layer = known.empty() ? kNothing : known[i];
             std::vector<Rgb> front, back;
-            changed(h, beside, *old.mesh, i, of_layer, false, front);
+            changed(h, leaves, *old.mesh, i, of_layer, false, front);
             if (old.has_back()) {
-                changed(h, beside, *old.mesh, i, of_layer, true, back);
+                changed(h, leaves, *old.mesh, i, of_layer, true, back);
             }
             if (front != old.irradiance_front || back != old.irradiance_back) {
                 auto layer = std::make_shared<SurfaceLayer>(old);

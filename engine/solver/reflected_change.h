@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/layers/layer_builder.h"
+#include "engine/particles/particle_map.h"
 #include "engine/radiosity/hierarchy.h"
 #include "engine/raycast/ray_scene.h"
 
@@ -34,10 +35,11 @@ public:
 
     /// Puts base irradiance + change of the leaves' irradiance on layers where it is more than a trace; the number of these.
     /// `beside` = per element, what of its leaves' irradiance changed sight made (empty: none); `known` = per layer,
-    /// vertices that know better (empty: none), in order of vertex and side.
+    /// vertices that know better (empty: none), in order of vertex and side; `elsewhere` = what
+    /// of the leaves' irradiance caustics show and vertices do not.
     std::size_t add_to(const Hierarchy& hierarchy, const std::vector<Rgb>& beside,
                        const std::vector<std::vector<VertexChange>>& known,
-                       std::vector<std::shared_ptr<const SurfaceLayer>>& layers) const;
+                       std::vector<std::shared_ptr<const SurfaceLayer>>& layers, const MattLight& elsewhere = {}) const;
     /// Elements and layers that are new stand at the end of `hierarchy` and `layers`, those from `first_layer` on, and no
     /// reflected light is known of them.
     void append(const Hierarchy& hierarchy, const RayScene& rays, const LayerSet& layers, std::size_t first_layer);
@@ -61,9 +63,14 @@ private:
         float area = 0.0F; ///< of the triangles around; 0 = nothing is known, or nothing changed
     };
     void take_layer(const Hierarchy& hierarchy, const RayScene& rays, const LayerSet& layers, std::size_t index);
-    [[nodiscard]] std::vector<OfVertex> of_vertices(const Hierarchy& hierarchy, const std::vector<Rgb>& beside,
+    /// Per element: what changed sight makes of irradiance, and what is shown elsewhere; see add_to().
+    struct OfLeaves {
+        const std::vector<Rgb>& beside;
+        const MattLight& elsewhere;
+    };
+    [[nodiscard]] std::vector<OfVertex> of_vertices(const Hierarchy& hierarchy, const OfLeaves& leaves,
                                                     const DisplayMesh& mesh, std::size_t layer, bool back) const;
-    void changed(const Hierarchy& hierarchy, const std::vector<Rgb>& beside, const DisplayMesh& mesh, std::size_t layer,
+    void changed(const Hierarchy& hierarchy, const OfLeaves& leaves, const DisplayMesh& mesh, std::size_t layer,
                  const std::vector<VertexChange>& known, bool back, std::vector<Rgb>& out) const;
 
     std::vector<Rgb> before_; ///< irradiance per element

@@ -35,6 +35,7 @@ void GiEngine::Relight::reflect(Impl& s, const RunContext& context) const {
             e.radiosity = factor == Rgb(1.0F) ? leaf.radiosity : e.first_radiosity() + e.rho * e.irradiance;
         }
         s.hierarchy.pull_radiosity();
+        (void)s.brighten_images(0.0);
         parallel_chunks(layers.size(), 1, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) {
                 std::vector<Rgb> front = layers[i]->irradiance_front, back = layers[i]->irradiance_back;
@@ -70,7 +71,7 @@ void GiEngine::Relight::reflect(Impl& s, const RunContext& context) const {
     constexpr double kTolerance = 0.003;
     constexpr int kMostSweeps = 12;
     solve_radiosity(s.hierarchy, *live.exchange, kTolerance, kMostSweeps, context);
-    live.reflected->add_to(s.hierarchy, {}, {}, live.layers.surfaces);
+    live.reflected->add_to(s.hierarchy, {}, {}, live.layers.surfaces, s.brighten_images(0.0));
 }
 
 void GiEngine::Relight::settle(Impl& s) const {
@@ -80,8 +81,7 @@ void GiEngine::Relight::settle(Impl& s) const {
         }
     }
     if (s.particles) {
-        s.particles->settle_emission({*s.rays, *s.targets, *s.punctual, s.emitters,
-                                      [&s](const Hit& hit) { return s.mirrors && s.mirrors->carries(hit); }});
+        s.particles->settle_emission(s.particle_scene(*s.punctual));
     }
     s.live->mean_radiance = mean_radiance * brightening(s);
 }

@@ -185,9 +185,10 @@ void GiEngine::Relight::learn_caustics(const Impl& s, Source& source) const {
     } else if (s.particles) {
         for (const ParticleLink& link : s.particles->links()) {
             const ParticleSource& from = s.particles->sources()[link.source];
-            const bool own = source.kind == Source::Kind::Lamps
-                                 ? std::find(source.lights.begin(), source.lights.end(), link.source) != source.lights.end()
-                                 : !from.leaves.empty() && s.rays->surfaces()[from.surface].material == source.material;
+            const bool own =
+                source.kind == Source::Kind::Lamps
+                    ? std::find(source.lights.begin(), source.lights.end(), link.source) != source.lights.end()
+                    : !from.leaves.empty() && !from.matt() && s.rays->surfaces()[from.surface].material == source.material;
             for (std::size_t k = link.first; own && k < link.first + link.landings; ++k) {
                 const Landing& l = s.particles->landings()[k];
                 const std::uint32_t leaf = s.hierarchy.leaf_at(l.surface, l.triangle, l.back, l.barycentric);

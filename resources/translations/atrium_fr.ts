@@ -771,6 +771,14 @@
         <source>Move and turn along the axes of the object instead of those of the world</source>
         <translation>Déplacer et tourner selon les axes de l&apos;objet au lieu de ceux du monde</translation>
     </message>
+    <message>
+        <source>&amp;Octree of Particles</source>
+        <translation>&amp;Octree des particules</translation>
+    </message>
+    <message>
+        <source>Draw the cells of the octree that finds the particles near the selected object when it moves</source>
+        <translation>Dessiner les cellules de l&apos;octree qui trouve les particules proches de l&apos;objet sélectionné quand il se déplace</translation>
+    </message>
 </context>
 <context>
     <name>Caustics</name>
@@ -1872,6 +1880,22 @@ subdivision</translation>
 1/m²</source>
         <translation>Densité des liens
 1/m²</translation>
+    </message>
+    <message>
+        <source>Select an object to see the octree around it</source>
+        <translation>Sélectionnez un objet pour voir l&apos;octree qui l&apos;entoure</translation>
+    </message>
+    <message>
+        <source>Octree: the selection has no surfaces in the light</source>
+        <translation>Octree : la sélection n&apos;a pas de surface dans la lumière</translation>
+    </message>
+    <message>
+        <source>Octree: %1 cells around the selection, blue to red by particles</source>
+        <translation>Octree : %1 cellules autour de la sélection, du bleu au rouge selon les particules</translation>
+    </message>
+    <message>
+        <source>%1 of %2 particles cross its bounds and would be sent anew by a move</source>
+        <translation>%1 particules sur %2 traversent son enveloppe et seraient émises de nouveau par un déplacement</translation>
     </message>
 </context>
 <context>

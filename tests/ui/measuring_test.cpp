@@ -29,7 +29,7 @@ protected:
             const auto light = window->engine().solution();
             return light && light->final && light->statistics.audit.points > 0;
         };
-        ASSERT_TRUE(QTest::qWaitFor(complete, 60000));
+        ASSERT_TRUE(QTest::qWaitFor(complete, 400000)); // a patience, not a measurement
         settle();
     }
     [[nodiscard]] std::optional<FalseColor> shown() { return window->viewport().false_color(); }

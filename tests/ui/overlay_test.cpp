@@ -1,4 +1,5 @@
 // View > Overlays in the whole window: what can be had, what not and why.
+#include "engine/solver/insides.h"
 #include "window_fixture.h"
 
 #include <QMenu>
@@ -34,6 +35,23 @@ TEST_F(Overlays, AskTheLightForWhatTheyNeedAndLetItGoAgain) {
     mesh->trigger();
     ASSERT_TRUE(QTest::qWaitFor([&] { return !window->engine().solution()->insides; }, 30'000));
     EXPECT_TRUE(window->viewport().inspector().figures().empty());
+    // The octree is that around the selection, and needs something that particles pass.
+    trigger(ActionId::PassageOctree);
+    ASSERT_TRUE(QTest::qWaitFor([&] { return bool(window->engine().solution()->insides); }, 120'000));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !window->viewport().inspector().busy(); }, 30'000));
+    const auto told = [&] { return window->viewport().inspector().words(scene()).join(QLatin1Char(' ')); };
+    const bool particles = window->engine().solution()->insides->particles > 0;
+    EXPECT_TRUE(told().contains(particles ? QStringLiteral("Select an object") : QStringLiteral("No particles")))
+        << told().toStdString();
+    select(named("Vase"));
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !window->viewport().inspector().busy(); }, 30'000));
+    const auto figures = window->viewport().inspector().figures();
+    if (particles) {
+        EXPECT_TRUE(told().contains(QStringLiteral("cells around the selection"))) << told().toStdString();
+        ASSERT_EQ(figures.size(), 1U);
+        EXPECT_EQ(figures[0].set->groups.at(0).lines.size() % 12, 0U) << "edges of boxes";
+    }
+    trigger(ActionId::PassageOctree);
     // Those that cover surfaces take turns.
     trigger(ActionId::SubdivisionLevel);
     trigger(ActionId::LinkDensity);

@@ -34,7 +34,8 @@ void follow_the_hand(float rho, double most, double settled_most) {
                     step, 100.0 * error, 100.0 * stale,
                     100.0 * double((*updated)->statistics.rays) / double(truth->statistics.rays));
         EXPECT_LT(error, most * stale);
-        EXPECT_LT((*updated)->statistics.rays, truth->statistics.rays / 6) << "15 % at most in rooms as small as this one";
+        EXPECT_LT((*updated)->statistics.rays, truth->statistics.rays / 5)
+            << "18 % at most in rooms as small as this one: 83,000 of 490,000, when solutions took 550,000 it was 15";
         // What light did not change is shared with the picture before.
         EXPECT_EQ((*updated)->surfaces.size(), before->surfaces.size());
         if (step == 2) {

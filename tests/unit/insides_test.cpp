@@ -1,5 +1,6 @@
 // Solution::insides and what engine/debug tells of it: elements, links, ways of particles, what an update changed.
 #include "engine/debug/element_view.h"
+#include "engine/debug/octree_view.h"
 #include "engine/debug/particle_view.h"
 #include "engine/debug/update_view.h"
 #include "engine/solver/gi_engine.h"
@@ -8,6 +9,9 @@
 #include "tests/support/rooms.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
 
 #include <map>
 
@@ -162,9 +166,14 @@ TEST(Insides, WaysOfParticlesGoFromTheLampOverTheBallToWhereTheyLand) {
         ASSERT_GT(view.ways.size(), 50U);
         ASSERT_LE(view.ways.size(), Insides::kWays);
         EXPECT_GT(view.particles, view.ways.size());
+        std::size_t from_lamp = 0;
         for (const ParticlePolyline& way : view.ways) {
             ASSERT_EQ(way.points.size(), 3U) << "one reflection on a convex mirror";
-            EXPECT_NEAR(glm::length(way.points[0] - lamp), 0.0, 1e-3);
+            if (glm::length(way.points[0] - lamp) < 1e-3) {
+                ++from_lamp;
+            } else {
+                EXPECT_NEAR(way.points[0].y, 0.0, 1e-3) << "the lit floor sends some too";
+            }
             const dvec3 radius = way.points[1] - centre;
             EXPECT_NEAR(glm::length(radius), 0.3, 0.003) << "on the facets of the ball";
             EXPECT_NEAR(way.points[2].y, 0.0, 1e-3);
@@ -174,10 +183,60 @@ TEST(Insides, WaysOfParticlesGoFromTheLampOverTheBallToWhereTheyLand) {
             EXPECT_GT(glm::dot(glm::reflect(in, glm::normalize(radius)), out), 0.99);
             EXPECT_GT(luminance(way.power), 0.0F);
         }
+        EXPECT_GT(from_lamp, 50U);
     }
     EXPECT_TRUE(view_particles(*solution, {far_floor}).ways.empty());
     EXPECT_EQ(view_particles(*solution, {floor}, 20).ways.size(), 20U);
     EXPECT_EQ(view_particles(*solution, {}).passage_cells, 0U) << "the editor's solutions have no octree";
+}
+
+TEST(Insides, TheOctreeAroundAnObjectHoldsWhatCrossesIt) {
+    Scene scene;
+    const MaterialId matt = add_material(scene, 0.6F);
+    add_rectangle(scene, "floor", {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, 4.0F, 4.0F, matt);
+    const NodeId shelf = add_rectangle(scene, "shelf", {0, -5, 0}, {0, 1, 0}, {1, 0, 0}, 0.1F, 0.1F, matt);
+    const dvec3 centre(0.3, 0.6, -0.2);
+    const NodeId ball = test::add_shape(scene, Sphere{0.3F}, centre, add_specular(scene, false));
+    const NodeId group = scene.nodes.insert(Node{});
+    scene.roots.push_back(group);
+    add_point_light(scene, {-0.8, 1.6, 0.5}, 3000.0);
+    GiEngine engine;
+    const auto solution = solve(engine, scene, looked_at());
+    ASSERT_TRUE(solution && solution->insides && solution->insides->paths);
+    const OctreeView view = view_octree(*solution, {ball});
+    EXPECT_EQ(view.particles, solution->insides->paths->size());
+    EXPECT_GT(view.touched, 1000U) << "what was aimed at it";
+    EXPECT_GE(view.scan, view.touched) << "each is in a cell, those on a border in two";
+    ASSERT_GT(view.cells.size(), 7U);
+    std::size_t fullest = 0;
+    const DBox3 body{centre - 0.3, centre + 0.3};
+    for (const OctreeCell& cell : view.cells) {
+        fullest = std::max(fullest, cell.particles);
+        EXPECT_TRUE(glm::all(glm::lessThan(cell.box.min, body.max + 1e-3)) &&
+                    glm::all(glm::greaterThan(cell.box.max, body.min - 1e-3)))
+            << "around it and nowhere else";
+        if (cell.particles > 256) {
+            EXPECT_LE(cell.box.size().x, 0.62) << "as small as what moves";
+        }
+    }
+    EXPECT_GT(fullest, 256U);
+    for (int k = 0; k < 200; ++k) { // its bounds are covered
+        const dvec3 p = body.min + body.size() * dvec3((k % 5) / 4.0, (k / 5 % 5) / 4.0, (k / 25) / 7.0);
+        EXPECT_TRUE(std::any_of(view.cells.begin(), view.cells.end(), [&](const OctreeCell& cell) {
+            return glm::all(glm::lessThanEqual(cell.box.min, p + 1e-6)) &&
+                   glm::all(glm::greaterThanEqual(cell.box.max, p - 1e-6));
+        }));
+    }
+    // The answer of the scan, particle by particle.
+    std::size_t crossing = 0;
+    const Box3 wide{vec3(body.min - solution->insides->origin) - 1e-3F, vec3(body.max - solution->insides->origin) + 1e-3F};
+    for (std::size_t i = 0; i < solution->insides->paths->size(); ++i) {
+        crossing += solution->insides->paths->crosses(i, std::array{wide}) ? 1 : 0;
+    }
+    EXPECT_NEAR(double(view.touched), double(crossing), 0.01 * double(crossing)) << "a facet or two beside the sphere";
+    EXPECT_EQ(view_octree(*solution, {shelf}).touched, 0U);
+    EXPECT_TRUE(view_octree(*solution, {group}).cells.empty()) << "it has no surface";
+    EXPECT_TRUE(view_octree(*solution, {}).cells.empty());
 }
 
 TEST(Insides, WhatAnUpdateChangedIsWhereTheLightIsAnother) {

@@ -2,6 +2,7 @@
 #include "engine/layers/layer_builder.h"
 #include "engine/radiosity/point_gather.h"
 #include "engine/raycast/ray_scene.h"
+#include "engine/reference/reference.h"
 #include "tests/support/rooms.h"
 
 #include <gtest/gtest.h>
@@ -250,6 +251,73 @@ TEST(Layers, CoveredFloorTakesTheLightAroundItsBox) {
         }
         EXPECT_GT(outside, 3);
     }
+}
+
+// Vertices under a box show what makes the light right where the box ends. Their neighbours' light, which they showed once,
+// is too bright there: towards the foot of a dark box the floor gets darker.
+TEST(Layers, LightBesideAFootIsThatOfTheReference) {
+    Scene scene;
+    const MaterialId glowing = add_material(scene, 0.5F, 100.0F); // like a furnace: no lamp, all of it is reflected light
+    add_room(scene, 4, 2.5F, 3, {add_material(scene, 0.3F), glowing, glowing, glowing, glowing, glowing});
+    add_node(scene, "box", Box{{0.5F, 0.5F, 0.5F}}, {1.63, 0.25, 1.37}, add_material(scene, 0.05F));
+    const auto solution = solve(scene, Quality::Normal).solution;
+    ASSERT_TRUE(solution);
+    std::vector<SensorPlace> places;
+    std::vector<ReferencePoint> points;
+    for (const double gap : {0.004, 0.012}) {
+        for (double along = -0.12; along < 0.13; along += 0.04) { // corners have a light of their own
+            for (const dvec2& d : {dvec2(along, 0.25 + gap), dvec2(along, -0.25 - gap), dvec2(0.25 + gap, along),
+                                   dvec2(-0.25 - gap, along)}) {
+                const dvec3 p(1.63 + d.x, 0.0, 1.37 + d.y);
+                places.push_back({p, {0, 1, 0}});
+                points.push_back({p, {0, 1, 0}});
+            }
+        }
+    }
+    ReferenceSettings settings;
+    settings.paths = 2048;
+    const auto truth = reference_irradiance(scene, points, settings, RunContext{});
+    ASSERT_TRUE(truth);
+    const std::vector<SensorReading> read = read_surfaces(scene, *solution, places);
+    double square = 0.0;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < read.size(); ++i) {
+        const double t = luminance(truth->points[i].irradiance), s = truth->points[i].standard_error / t;
+        const double d = luminance(read[i].irradiance) / t - 1.0;
+        square += d * d - s * s;
+        sum += d;
+    }
+    const double rms = std::sqrt(square / double(read.size())), mean = sum / double(read.size());
+    EXPECT_LT(rms, 0.07) << "0.10 where they show their neighbours' light";
+    EXPECT_LT(std::abs(mean), 0.06);
+}
+
+TEST(Layers, ALegThatSinksIntoTheFloorHasTheLightOfTheRoom) {
+    Scene scene;
+    add_room(scene, 4, 3, 4, add_material(scene, 0.6F));
+    // Its end lies 2 mm below the floor, under a sky a hundred times as bright as the room.
+    const double sunk = 0.002;
+    const NodeId leg =
+        add_node(scene, "leg", Cylinder{0.01F, 0.09F, true}, {2.0, 0.045 - sunk, 2.0}, add_material(scene, 0.5F));
+    add_point_light(scene, {2.0, 2.5, 2.0}, 2000.0);
+    scene.environment.sky_radiance = Rgb(20000.0F);
+    GiEngine engine;
+    const auto solution = engine.solve(scene, {}, {});
+    ASSERT_TRUE(solution);
+    int ends = 0;
+    for (const auto& layer : (*solution)->surfaces) {
+        for (std::size_t v = 0; layer->node == leg && v < layer->mesh->positions.size(); ++v) {
+            const bool side = std::abs(layer->mesh->normals[v].y) < 0.5F;
+            if (side) {
+                const double light = luminance(light_on(*layer, v));
+                const float height = layer->mesh->positions[v].y;
+                ends += height < -0.0449F ? 1 : 0;
+                EXPECT_GT(light, 10.0) << height;
+                EXPECT_LT(light, 1000.0) << height << ": light from under the floor";
+            }
+        }
+    }
+    EXPECT_GT(ends, 8) << "vertices of its end";
 }
 
 TEST(Layers, VertexBudgetIsKept) {

@@ -196,6 +196,9 @@ TEST(IndirectGather, FurtherRaysDoNotFollowFromTheFirst) {
         settings.rays = settings.max_rays = 4096;
         const vec3 p = vec3(dvec3(0, 0.02, 0) - rays.origin());
         const float floor = gather.irradiance(p, {0, 1, 0}, settings).irradiance.r; // alike below the point within 2 %
+        for (Element& e : h.elements) { // what the leaf tells of its mean decides how many further rays there are
+            e.irradiance = e.leaf() && e.rho.r > 0.0F ? Rgb(floor) : Rgb(0.0F);
+        }
         settings.near = 1.0F;
         const float found = gather.irradiance(p, {0, -1, 0}, settings).irradiance.r;
         EXPECT_GT(floor, 30.0F);

@@ -187,7 +187,8 @@ TEST(LookingAtAPiece, StaysInTheRoomAndInFrontOfTheSurface) {
 class CausticOverlays : public ViewportFixture {
 protected:
     QImage picture() {
-        QTest::qWait(800); // the smoothed one
+        QTest::qWait(400);   // light and maps are there
+        view_->refine_now(); // the smoothed one, however long it takes
         return grab();
     }
     static int differing(const QImage& a, const QImage& b, const QRect& where) {

@@ -88,6 +88,7 @@ enum class ActionId : std::uint8_t {
     SubdivisionLevel,
     LinkDensity,
     ParticleWays,
+    PassageOctree,
     LastUpdate,
     ErrorEstimate,
     Histogram,

@@ -10,9 +10,12 @@
 #include <QListView>
 #include <QMimeData>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QStyledItemDelegate>
 #include <QTabBar>
 #include <QVBoxLayout>
+
+#include <algorithm>
 
 namespace atrium::ui {
 namespace {
@@ -20,12 +23,19 @@ namespace {
 constexpr QSize kCell(104, 128);
 constexpr int kDragPicture = 28; ///< points; the object itself is seen in the view
 
-/// Lets a name have all of its cell: three lines, where by itself it would be cut after two.
+/// Lets a name have all of its cell: three lines, where by itself it would be cut after two; a short one stands at its
+/// picture.
 class CellDelegate : public QStyledItemDelegate {
 public:
     using QStyledItemDelegate::QStyledItemDelegate;
     [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& /*option*/, const QModelIndex& /*index*/) const override {
         return kCell - QSize(4, 4);
+    }
+
+protected:
+    void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
+        QStyledItemDelegate::initStyleOption(option, index);
+        option->displayAlignment = Qt::AlignHCenter | Qt::AlignTop;
     }
 };
 
@@ -93,6 +103,9 @@ LibraryPanel::LibraryPanel(QWidget* parent) : QWidget(parent) {
     view_->setSelectionMode(QAbstractItemView::SingleSelection);
     view_->installEventFilter(this);
     layout->addWidget(view_, 1);
+    // Two columns, and all sections without having to look for them.
+    const int columns = 2 * kCell.width() + view_->verticalScrollBar()->sizeHint().width() + 2 * view_->frameWidth() + 2;
+    view_->setMinimumWidth(std::max(columns, sections_->sizeHint().width()));
     folder_button_ = new QPushButton(tr("Choose &Folder..."));
     folder_button_->setObjectName(QStringLiteral("library_folder"));
     folder_button_->setToolTip(tr("Choose the folder with your glTF models"));

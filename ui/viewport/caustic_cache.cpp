@@ -115,7 +115,7 @@ bool CausticCache::upload_some(Gl& gl, const CausticList& list) {
 void CausticCache::work(Gl& gl, const CausticList& list, Entry& entry, double budget_ms) {
     QElapsedTimer clock;
     clock.start();
-    if (entry.scanned == 0) {
+    if (entry.places.places.empty()) {
         entry.places = place_caustics(list, largest_side_);
         if (entry.places.places.empty()) {
             entry.complete = true; // shown as coarsely as the vertices are
@@ -123,10 +123,16 @@ void CausticCache::work(Gl& gl, const CausticList& list, Entry& entry, double bu
         }
     }
     while (entry.scanned < list.size()) {
-        for (const Rgb& texel : list[entry.scanned]->image) {
-            entry.largest = std::max(entry.largest, max_component(texel));
+        const auto& image = list[entry.scanned]->image;
+        const std::size_t end = std::min(entry.texels_scanned + kSlice, image.size());
+        for (std::size_t i = entry.texels_scanned; i < end; ++i) {
+            entry.largest = std::max(entry.largest, max_component(image[i]));
         }
-        ++entry.scanned;
+        entry.texels_scanned = end;
+        if (end == image.size()) {
+            ++entry.scanned;
+            entry.texels_scanned = 0;
+        }
         if (milliseconds(clock) > budget_ms) {
             return;
         }

@@ -66,10 +66,11 @@ private:
     struct Entry {
         Texture texture;
         CausticPlaces places;
-        float largest = 0.0F; ///< of the textures looked at, lux
-        std::size_t scanned = 0;
-        std::size_t sent = 0;        ///< textures sent as a whole
-        std::uint32_t rows_sent = 0; ///< of the next one
+        float largest = 0.0F;           ///< of the textures looked at, lux
+        std::size_t scanned = 0;        ///< textures looked at as a whole
+        std::size_t texels_scanned = 0; ///< of the next one
+        std::size_t sent = 0;           ///< textures sent as a whole
+        std::uint32_t rows_sent = 0;    ///< of the next one
         bool complete = false;
     };
     void work(Gl& gl, const CausticList& list, Entry& entry, double budget_ms);

@@ -369,6 +369,54 @@ QStringList particle_words(const ParticleView& view, bool of_selection) {
     return out;
 }
 
+std::shared_ptr<const FigureSet> octree_cells(const OctreeView& view) {
+    auto out = std::make_shared<FigureSet>();
+    if (view.cells.empty()) {
+        return out;
+    }
+    std::size_t most = 1;
+    for (const OctreeCell& cell : view.cells) {
+        most = std::max(most, cell.particles);
+    }
+    FigureGroup& group = out->groups.emplace_back();
+    group.origin = view.cells.front().box.min;
+    for (const OctreeCell& cell : view.cells) {
+        // By the logarithm: cells differ by orders of magnitude. What nothing crosses is pale.
+        const float place = float(std::log1p(double(cell.particles)) / std::log1p(double(most)));
+        const FigureColor color = figure_color(strength_color(place), cell.particles > 0 ? 0.8F : 0.3F);
+        const auto corner = [&](unsigned k) {
+            const dvec3 p((k & 1U) != 0 ? cell.box.max.x : cell.box.min.x, (k & 2U) != 0 ? cell.box.max.y : cell.box.min.y,
+                          (k & 4U) != 0 ? cell.box.max.z : cell.box.min.z);
+            return vec3(p - group.origin);
+        };
+        for (unsigned k = 0; k < 8; ++k) {
+            for (const unsigned axis : {1U, 2U, 4U}) {
+                if ((k & axis) == 0) {
+                    group.lines.push_back({corner(k), corner(k | axis), color, 0, 1.0F});
+                }
+            }
+        }
+    }
+    return out;
+}
+
+QStringList octree_words(const OctreeView& view, bool of_selection) {
+    QStringList out;
+    if (view.particles == 0) {
+        out << words(QT_TRANSLATE_NOOP("Inspection", "No particles: no light that stands out goes over a mirror or glass"));
+    } else if (!of_selection) {
+        out << words(QT_TRANSLATE_NOOP("Inspection", "Select an object to see the octree around it"));
+    } else if (view.cells.empty()) {
+        out << words(QT_TRANSLATE_NOOP("Inspection", "Octree: the selection has no surfaces in the light"));
+    } else {
+        out << words(QT_TRANSLATE_NOOP("Inspection", "Octree: %1 cells around the selection, blue to red by particles"))
+                   .arg(number(view.cells.size()));
+        out << words(QT_TRANSLATE_NOOP("Inspection", "%1 of %2 particles cross its bounds and would be sent anew by a move"))
+                   .arg(number(view.touched), number(view.particles));
+    }
+    return out;
+}
+
 std::shared_ptr<const FigureSet> update_marks(const UpdateView& view) {
     const std::size_t stride = view.texels / kMostMarks + 1;
     auto out = std::make_shared<FigureSet>();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/debug/element_view.h"
+#include "engine/debug/octree_view.h"
 #include "engine/debug/particle_view.h"
 #include "engine/debug/update_view.h"
 #include "engine/measure/local_error.h"
@@ -54,6 +55,10 @@ ErrorFigures error_colors(const Scene& scene, const Solution& solution, const Lo
 /// Ways of particles, coloured by power.
 std::shared_ptr<const FigureSet> particle_ways(const ParticleView& view);
 QStringList particle_words(const ParticleView& view, bool of_selection);
+
+/// Cells of the octree as boxes, coloured by the particles that cross them.
+std::shared_ptr<const FigureSet> octree_cells(const OctreeView& view);
+QStringList octree_words(const OctreeView& view, bool of_selection);
 
 /// What changed, as marks of their own colours. Of very many texels some.
 std::shared_ptr<const FigureSet> update_marks(const UpdateView& view);

@@ -77,7 +77,7 @@ void LightInspector::take(const std::shared_ptr<const Solution>& solution) {
 void LightInspector::select(const std::unordered_set<NodeId>& nodes) {
     if (nodes != of_) {
         of_ = nodes;
-        if (choice_.elements || choice_.ways) {
+        if (choice_.elements || choice_.ways || choice_.octree) {
             make();
         }
         make_histogram();
@@ -114,7 +114,11 @@ void LightInspector::make() {
         made_.ways.reset();
         made_.way_words.clear();
     }
-    if (working_ || !(elements || choice_.ways)) {
+    if (!choice_.octree) {
+        made_.octree.reset();
+        made_.octree_words.clear();
+    }
+    if (working_ || !(elements || choice_.ways || choice_.octree)) {
         return; // it looks again when it is done
     }
     if (!solution_ || !solution_->insides) {
@@ -144,6 +148,11 @@ void LightInspector::make() {
                 const ParticleView particles = view_particles(*solution, of);
                 out.ways = particle_ways(particles);
                 out.way_words = particle_words(particles, !of.empty());
+            }
+            if (choice.octree) {
+                const OctreeView octree = view_octree(*solution, of);
+                out.octree = octree_cells(octree);
+                out.octree_words = octree_words(octree, !of.empty());
             }
             return out;
         },
@@ -324,6 +333,7 @@ std::vector<ShownFigures> LightInspector::figures() const {
     add(choice_.colors == ElementColors::Error, error_.set);
     add(choice_.elements, made_.mesh);
     add(choice_.ways, made_.ways);
+    add(choice_.octree, made_.octree);
     if (update_) {
         add(choice_.last_update, update_,
             std::clamp(2.0F - 2.0F * float(update_age_.elapsed()) / float(kFadeMs), 0.0F, 1.0F));
@@ -355,6 +365,9 @@ QStringList LightInspector::words(const Scene& scene) const {
     }
     if (choice_.ways && made_.ways) {
         out << made_.way_words;
+    }
+    if (choice_.octree && made_.octree) {
+        out << made_.octree_words;
     }
     if (choice_.colors == ElementColors::Error) {
         if (measuring_error_) {

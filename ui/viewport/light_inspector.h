@@ -20,12 +20,13 @@ struct InspectionChoice {
     bool elements = false;    ///< borders of the elements
     bool links = false;       ///< of the element that was clicked
     bool ways = false;        ///< of particles
+    bool octree = false;      ///< of passing particles, around the selection
     bool last_update = false; ///< what it changed
     bool histogram = false;   ///< of the amounts in false colour, beside the legend
     ElementColors colors = ElementColors::None;
     friend bool operator==(const InspectionChoice&, const InspectionChoice&) = default;
     /// Solution::insides must be asked for.
-    [[nodiscard]] bool needs_insides() const { return elements || links || ways || of_elements(colors); }
+    [[nodiscard]] bool needs_insides() const { return elements || links || ways || octree || of_elements(colors); }
 };
 
 /// UI thread only; figures are made on pool threads, and nothing is kept of what is off.
@@ -41,7 +42,7 @@ public:
     [[nodiscard]] const InspectionChoice& choice() const { return choice_; }
     /// The light that is shown now; may be null.
     void take(const std::shared_ptr<const Solution>& solution);
-    /// Of which nodes meshes and ways are drawn; of all where nothing is selected.
+    /// Of which nodes meshes, ways and octrees are drawn; of all (octrees: none) where nothing is selected.
     void select(const std::unordered_set<NodeId>& nodes);
     /// What false colour shows, for the histogram; none: the picture.
     void measure(const std::optional<FalseColor>& scale, const LightShares& shares);
@@ -93,10 +94,10 @@ private:
     struct Made {
         std::shared_ptr<const Insides> from; ///< that `view` is of
         std::shared_ptr<const ElementView> view;
-        std::shared_ptr<const FigureSet> mesh, colors, ways;
+        std::shared_ptr<const FigureSet> mesh, colors, ways, octree;
         FalseColor scale;
         std::size_t leaves = 0;
-        QStringList way_words;
+        QStringList way_words, octree_words;
     };
     Made made_;
     ElementColors made_colors_ = ElementColors::None;

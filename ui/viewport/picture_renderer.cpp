@@ -11,7 +11,8 @@
 namespace atrium::ui {
 namespace {
 
-constexpr int kSamples = 4;
+constexpr int kSamples = 4;           ///< of a picture in motion
+constexpr int kRefinedScale = 2;      ///< of one at rest
 constexpr float kOutlineWidth = 2.0F; ///< logical pixels
 
 } // namespace
@@ -81,13 +82,15 @@ void PictureRenderer::paint(const FrameInput& in) {
     from.exposure = in.exposure;
     from.cutaway = in.view.cutaway();
     from.shares = in.shares;
-    const int samples = software_ && !in.refine ? 0 : kSamples;
-    const bool resized = picture_.width() != in.width || picture_.height() != in.height;
-    if (!picture_good_ || resized || samples > picture_samples_) {
-        draw_picture(in, from, samples);
+    const bool large = in.refine && (!software_ || unhurried_);
+    const int samples = large || (software_ && !in.refine) ? 0 : kSamples;
+    const bool resized = picture_width_ != in.width || picture_height_ != in.height;
+    const bool better = !picture_refined_ && (large || samples > picture_samples_);
+    if (!picture_good_ || resized || better) {
+        draw_picture(in, from, samples, large ? kRefinedScale : 1);
         mask_good_ = mask_good_ && !resized;
     }
-    const GlTarget& shown = picture_samples_ > 0 ? resolved_ : picture_;
+    const GlTarget& shown = picture_samples_ > 0 || picture_refined_ ? resolved_ : picture_;
     gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, shown.framebuffer());
     gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER, in.framebuffer);
     gl.glBlitFramebuffer(0, 0, in.width, in.height, 0, 0, in.width, in.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
@@ -117,13 +120,18 @@ bool PictureRenderer::step_probe(const ViewScene& view, const Scene& scene, floa
     return true;
 }
 
-void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, int samples) {
+void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, int samples, int scale) {
     Gl& gl = *gl_;
     QElapsedTimer clock;
     clock.start();
-    picture_.resize(gl, in.width, in.height, samples, GL_RGBA8, true);
+    // At rest the picture is drawn larger and averaged. Several samples a pixel smooth edges for less, but have one light
+    // for all of them: that of the pixel's middle, which may lie behind what is seen (the floor under a skirting board, the
+    // wall behind a book), so that bright and dark dots stand along edges.
+    const int width = scale * in.width, height = scale * in.height;
+    const double ratio = scale * in.pixel_ratio;
+    picture_.resize(gl, width, height, samples, GL_RGBA8, true);
     gl.glBindFramebuffer(GL_FRAMEBUFFER, picture_.framebuffer());
-    gl.glViewport(0, 0, in.width, in.height);
+    gl.glViewport(0, 0, width, height);
     const Rgb sky = in.scene.environment.sky_radiance;
     // Without a sky the surroundings are a neutral grey, not the black that would be true: one has to find the model.
     const bool lit_sky = max_component(sky) > 0.0F;
@@ -139,7 +147,7 @@ void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, i
     DrawView with_background = from;
     with_background.background = ground;
     with_background.false_color = in.false_color ? &*in.false_color : nullptr;
-    with_background.line_width = 1.5F * float(in.pixel_ratio);
+    with_background.line_width = 1.5F * float(ratio);
     with_background.caustic_boxes = in.caustic_boxes;
     with_background.texel_grid = in.texel_grid ? &in.selected : nullptr;
     gpu_.begin_frame();
@@ -147,19 +155,26 @@ void PictureRenderer::draw_picture(const FrameInput& in, const DrawView& from, i
     if (in.wireframe) {
         gpu_.draw_edges(in.view, from);
     }
-    gpu_.draw_landings(in.view, from, in.landings, in.selected, float(in.pixel_ratio));
-    figures_.draw(in.view, from, in.figures, vec2(in.width, in.height), float(in.pixel_ratio));
-    if (samples > 0) {
+    gpu_.draw_landings(in.view, from, in.landings, in.selected, float(ratio));
+    figures_.draw(in.view, from, in.figures, vec2(width, height), float(ratio));
+    if (samples > 0 || scale > 1) {
         resolved_.resize(gl, in.width, in.height, 0, GL_RGBA8, false);
         gl.glBindFramebuffer(GL_READ_FRAMEBUFFER, picture_.framebuffer());
         gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.framebuffer());
-        gl.glBlitFramebuffer(0, 0, in.width, in.height, 0, 0, in.width, in.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        // Halved, a linear filter is the mean of the four.
+        gl.glBlitFramebuffer(0, 0, width, height, 0, 0, in.width, in.height, GL_COLOR_BUFFER_BIT,
+                             scale > 1 ? GL_LINEAR : GL_NEAREST);
     }
     if (software_) {
         gl.glFinish(); // the work is done on this processor anyway
-        picture_milliseconds_ = double(clock.nsecsElapsed()) * 1e-6;
+        if (samples == 0 && scale == 1) {
+            picture_milliseconds_ = double(clock.nsecsElapsed()) * 1e-6;
+        }
     }
     picture_samples_ = samples;
+    picture_refined_ = scale > 1;
+    picture_width_ = in.width;
+    picture_height_ = in.height;
     picture_good_ = !gpu_.uploads_pending();
     ++pictures_drawn_;
 }

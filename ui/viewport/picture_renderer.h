@@ -38,7 +38,7 @@ struct FrameInput {
     std::span<const ShownFigures> figures; ///< in the scene
     std::optional<FalseColor> false_color; ///< amounts of light instead of the picture
     std::span<const Plate> plates;         ///< over everything else, in this order
-    bool refine = false;                   ///< smooth edges where the interactive picture goes without
+    bool refine = false;                   ///< edges as smooth and clean as there is time for when the view rests
     int width = 1;                         ///< device pixels
     int height = 1;
     double pixel_ratio = 1.0;
@@ -52,10 +52,10 @@ public:
     bool initialize(Gl& gl);
     void release();
 
-    void invalidate_picture() { picture_good_ = mask_good_ = false; } ///< camera, geometry, light or exposure changed
-    void invalidate_mask() { mask_good_ = false; }                    ///< selection or hover changed
-    void invalidate_probe() { probe_face_ = 0; }                      ///< what mirrors show changed
-    void invalidate_items() { items_good_ = false; }                  ///< the view scene was synchronised
+    void invalidate_picture() { picture_good_ = mask_good_ = unhurried_ = false; } ///< camera, geometry, light, exposure
+    void invalidate_mask() { mask_good_ = false; }                                 ///< selection or hover changed
+    void invalidate_probe() { probe_face_ = 0; }                                   ///< what mirrors show changed
+    void invalidate_items() { items_good_ = false; }                               ///< the view scene was synchronised
 
     void paint(const FrameInput& in);
 
@@ -75,17 +75,24 @@ public:
     /// True when the last picture lacks something that the next one shows.
     [[nodiscard]] bool incomplete() const { return !picture_good_; }
     /// True when the last picture would gain from `refine` and is quick enough to draw that nobody waits for it.
-    [[nodiscard]] bool wants_refining() const { return software_ && picture_samples_ == 0 && picture_milliseconds_ < 150.0; }
+    [[nodiscard]] bool wants_refining() const {
+        return !picture_refined_ && (!software_ || (picture_samples_ == 0 && picture_milliseconds_ < kQuickEnough));
+    }
+    /// The next refined picture takes the time that it takes, also on a software rasteriser; until something changes.
+    void take_time() { unhurried_ = true; }
     /// Number of times that the scene itself was drawn, for tests and measurements.
     [[nodiscard]] int pictures_drawn() const { return pictures_drawn_; }
 
 private:
-    void draw_picture(const FrameInput& in, const DrawView& from, int samples);
+    void draw_picture(const FrameInput& in, const DrawView& from, int samples, int scale);
     void draw_outlines(const FrameInput& in, const DrawView& from);
     void draw_overlay(const FrameInput& in);
     void draw_plates(const FrameInput& in);
 
     static constexpr unsigned kProbeFaces = 6;
+    /// Milliseconds of a picture without smoothed edges on a software rasteriser, below which it is smoothed at rest: by
+    /// several samples a pixel, for at twice the size it would take four times as long.
+    static constexpr double kQuickEnough = 150.0;
     Gl* gl_ = nullptr;
     GpuScene gpu_;
     SceneFigures figures_;
@@ -106,8 +113,12 @@ private:
     unsigned probe_face_ = 0; ///< next face to draw; kProbeFaces = up to date
     bool items_good_ = false;
     int picture_samples_ = 0;
+    int picture_width_ = 0; ///< as shown
+    int picture_height_ = 0;
+    bool picture_refined_ = false; ///< drawn at twice the size
     int pictures_drawn_ = 0;
-    double picture_milliseconds_ = 0; ///< of the last picture on a software rasteriser
+    double picture_milliseconds_ = 0; ///< of the last picture without smoothed edges on a software rasteriser
+    bool unhurried_ = false;
 };
 
 } // namespace atrium::ui

@@ -155,6 +155,13 @@ void ViewportWidget::paintGL() {
     }
 }
 
+void ViewportWidget::refine_now() {
+    impl_->refine_timer.stop();
+    impl_->refine = true;
+    impl_->renderer.take_time();
+    update();
+}
+
 void ViewportWidget::resizeGL(int /*width*/, int /*height*/) {
     impl_->controller.set_viewport(width(), height());
     impl_->picture_changed();

@@ -65,6 +65,8 @@ public:
     bool add_measuring_point(const QPointF& point);
     /// The light under a point of the view, logical pixels; none where there is nothing to be measured.
     [[nodiscard]] std::optional<MeterReading> light_at(const QPointF& point);
+    /// The next frame has the smooth edges of a view at rest, however long that takes here; until something changes.
+    void refine_now();
     [[nodiscard]] ViewCamera camera() const; ///< as seen now, for "export picture"
     void set_camera(const ViewCamera& camera);
     /// Point on the floor or nearest surface in the middle of the view: where new objects are placed, world metres.

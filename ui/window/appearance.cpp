@@ -1,12 +1,22 @@
 #include "ui/window/appearance.h"
 
 #include <QApplication>
+#include <QProxyStyle>
 #include <QStyle>
 #include <QStyleFactory>
 #include <QToolTip>
 
 namespace atrium::ui {
 namespace {
+
+/// Words on the buttons of dialogs, without the style's own pictures: these are made for pale buttons, and some are black.
+class WordsOnly : public QProxyStyle {
+public:
+    using QProxyStyle::QProxyStyle;
+    int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget, QStyleHintReturn* data) const override {
+        return hint == SH_DialogButtonBox_ButtonsHaveIcons ? 0 : QProxyStyle::styleHint(hint, option, widget, data);
+    }
+};
 
 QPalette colors(const QColor& window, const QColor& base, const QColor& text, const QColor& faint, const QColor& button,
                 const QColor& highlight, const QColor& link) {
@@ -63,7 +73,11 @@ void apply_appearance(Appearance appearance) {
         return;
     }
     shown = appearance;
-    QApplication::setStyle(appearance == Appearance::System ? systems_style : QStringLiteral("Fusion"));
+    if (appearance == Appearance::System) {
+        QApplication::setStyle(systems_style);
+    } else {
+        QApplication::setStyle(new WordsOnly(QStringLiteral("Fusion"))); // the application takes it
+    }
     // Asked for an empty palette Qt would keep what it has.
     QApplication::setPalette(appearance == Appearance::System ? systems_palette : appearance_palette(appearance));
     QToolTip::setPalette(QApplication::palette());

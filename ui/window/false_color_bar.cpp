@@ -54,6 +54,7 @@ FalseColorBar::FalseColorBar(Document& document, EngineLink& engine, QWidget* pa
             {light_units(LightQuantity::Illuminance), suffix(LightQuantity::Illuminance), 4, 0.0, 1e9, 0.1, true, 1.0});
         out->setObjectName(QLatin1StringView(object));
         out->setAccessibleName(name);
+        out->setMinimumWidth(out->fontMetrics().horizontalAdvance(QStringLiteral("20000 cd/m\u00b2")) + 12);
         out->setMaximumWidth(140);
         connect(out, &NumberField::refused, this, &FalseColorBar::message);
         return out;

@@ -11,7 +11,7 @@ namespace {
 
 /// Those that need Solution::insides.
 constexpr std::array kOfInsides{ActionId::ElementMesh, ActionId::ElementLinks, ActionId::SubdivisionLevel,
-                                ActionId::LinkDensity, ActionId::ParticleWays};
+                                ActionId::LinkDensity, ActionId::ParticleWays, ActionId::PassageOctree};
 /// Those that cover surfaces: one of them at a time.
 constexpr std::array kColors{ActionId::SubdivisionLevel, ActionId::LinkDensity, ActionId::ErrorEstimate};
 
@@ -40,9 +40,9 @@ OverlayController::OverlayController(const Actions& actions, EngineLink& engine,
 
 void OverlayController::fill(QMenu* menu) const {
     menu->setToolTipsVisible(true);
-    for (const ActionId id :
-         {ActionId::ElementMesh, ActionId::ElementLinks, ActionId::SubdivisionLevel, ActionId::LinkDensity,
-          ActionId::ErrorEstimate, ActionId::Histogram, ActionId::ParticleWays, ActionId::LastUpdate}) {
+    for (const ActionId id : {ActionId::ElementMesh, ActionId::ElementLinks, ActionId::SubdivisionLevel,
+                              ActionId::LinkDensity, ActionId::ErrorEstimate, ActionId::Histogram, ActionId::ParticleWays,
+                              ActionId::PassageOctree, ActionId::LastUpdate}) {
         menu->addAction(actions_[id]);
     }
 }
@@ -77,6 +77,7 @@ void OverlayController::apply() {
     choice.elements = on(ActionId::ElementMesh);
     choice.links = on(ActionId::ElementLinks);
     choice.ways = on(ActionId::ParticleWays);
+    choice.octree = on(ActionId::PassageOctree);
     choice.last_update = on(ActionId::LastUpdate);
     choice.histogram = on(ActionId::Histogram);
     choice.colors = on(ActionId::ErrorEstimate)      ? ElementColors::Error
