@@ -136,7 +136,7 @@ private:
         if (chance(50)) {
             return {SetEnvironment{{Rgb(number())}}};
         }
-        return {SetSolverSettings{{SolverSettings::Quality::Fine, below(3)}}};
+        return {SetSolverSettings{{SolverSettings::Quality::Fine, below(3), {}}}};
     }
     SceneEdit camera_or_texture(const Scene& scene) {
         Camera c;

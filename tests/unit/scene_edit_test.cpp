@@ -102,7 +102,7 @@ TEST_F(Room, EveryKindOfEditIsExact) {
     expect_exact({SetNode{chair, n}});
     EXPECT_EQ(scene.nodes.find(chair)->children, std::vector<NodeId>{cup}) << "children are not part of SetNode";
     expect_exact({SetEnvironment{{Rgb(100.0F)}}});
-    expect_exact({SetSolverSettings{{SolverSettings::Quality::Draft, 7}}});
+    expect_exact({SetSolverSettings{{SolverSettings::Quality::Draft, 7, {}}}});
     expect_exact({SetResource<Shape>{box, {"ball", Sphere{0.3F}, {}}}});
     Material red;
     red.base_color = Rgb(0.5F, 0.0F, 0.0F);
@@ -244,7 +244,7 @@ TEST_F(Room, NamesLocksCamerasAndExtrasLeaveLightAlone) {
     EXPECT_FALSE(neutral({SetResource<Shape>{box, {"crate", Box{vec3(2.0F)}, {}}}}));
     EXPECT_TRUE(neutral({SetEnvironment{}}));
     EXPECT_FALSE(neutral({SetEnvironment{{Rgb(1.0F)}}}));
-    EXPECT_FALSE(neutral({SetSolverSettings{{SolverSettings::Quality::Fine, 1}}}));
+    EXPECT_FALSE(neutral({SetSolverSettings{{SolverSettings::Quality::Fine, 1, {}}}}));
     EXPECT_FALSE(neutral({RemoveNode{NodeId{77, 3}}}));
 }
 
