@@ -45,7 +45,10 @@ TEST_F(QualityTest, ThresholdsAreToldAndSetByHandWithUndo) {
     EXPECT_FALSE(reset->isEnabled());
     trigger(ActionId::Undo);
     EXPECT_FLOAT_EQ(settings().thresholds.element_edge, 0.12F);
-    type(element, "");
+    element->setFocus();
+    QTest::keyClick(element, Qt::Key_A, Qt::ControlModifier);
+    QTest::keyClick(element, Qt::Key_Delete);
+    QTest::keyClick(element, Qt::Key_Return);
     EXPECT_EQ(settings().thresholds.element_edge, 0.0F) << "nothing typed is automatic";
 
     auto* wish = window->findChild<QComboBox*>(QStringLiteral("Light quality"));
