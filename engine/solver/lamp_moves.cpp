@@ -244,6 +244,7 @@ Result<std::size_t> GiEngine::LampMoves::follow(Impl& s, const Scene& scene, con
     if (first) {
         DirectPart part;
         part.sharp = true;
+        part.straight = s.mirrors == nullptr;
         part.light = [&s](const vec3& p, const vec3& n) {
             const DirectLight& lamps = *s.live->lamps->moving;
             DirectSample out = lamps.lamps_irradiance(p, n, s.field.direct.sun_rays);
