@@ -233,16 +233,8 @@ void ParticleMap::append(std::vector<ParticleSource>&& sources, std::vector<Part
     for (ParticleBatch& b : batches) {
         for (Landing& l : b.landings) {
             l.link += first_link;
-            landings_.push_back(l);
         }
-        energy_ += b.energy;
-        shares_.insert(shares_.end(), b.shares.begin(), b.shares.end());
-        std::size_t at = 0;
-        for (const std::uint32_t n : b.vertex_count) {
-            paths_->set(particle++, std::span(b.vertices).subspan(at, n));
-            at += n;
-        }
-        b = {};
+        take(b, particle);
     }
     count_landings();
     if (paths_) {

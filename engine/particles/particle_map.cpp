@@ -97,20 +97,24 @@ void ParticleMap::store(std::vector<ParticleBatch>&& batches) {
     }
     std::size_t particle = 0;
     for (ParticleBatch& b : batches) {
-        landings_.insert(landings_.end(), b.landings.begin(), b.landings.end());
-        energy_ += b.energy;
-        shares_.insert(shares_.end(), b.shares.begin(), b.shares.end());
-        std::size_t at = 0;
-        for (const std::uint32_t n : b.vertex_count) {
-            paths_->set(particle++, std::span(b.vertices).subspan(at, n));
-            at += n;
-        }
-        b = {};
+        take(b, particle);
     }
     count_landings();
     if (paths_) {
         sum_energy();
     }
+}
+
+void ParticleMap::take(ParticleBatch& b, std::size_t& particle) {
+    landings_.insert(landings_.end(), b.landings.begin(), b.landings.end());
+    energy_ += b.energy;
+    shares_.insert(shares_.end(), b.shares.begin(), b.shares.end());
+    std::size_t at = 0;
+    for (const std::uint32_t n : b.vertex_count) {
+        paths_->set(particle++, std::span(b.vertices).subspan(at, n));
+        at += n;
+    }
+    b = {};
 }
 
 void ParticleMap::count_landings() {

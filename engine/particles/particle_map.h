@@ -131,6 +131,8 @@ private:
     void append(std::vector<ParticleSource>&& sources, std::vector<ParticleLink>&& links,
                 std::vector<ParticleBatch>&& batches);
     void store(std::vector<ParticleBatch>&& batches);
+    /// Moves what a batch holds behind what is there; `particle`: the first of its ways, then the next batch's.
+    void take(ParticleBatch& b, std::size_t& particle);
     void count_landings();
     void sum_energy();
 
