@@ -4,6 +4,7 @@
 #include "engine/base/rng.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace atrium {
 namespace {
@@ -36,17 +37,23 @@ std::uint64_t IrradianceCache::cell_key(int level, const Cell& c) {
                         std::uint64_t(level));
 }
 
-// Cells of a level are as large as the longest diameter of its records: a record lies in at most eight.
-void IrradianceCache::insert(std::uint32_t index) {
+// Half the longest reach of a level's records: what is looked at around a point is little more than what reaches it.
+float IrradianceCache::cell_size(int level) const { return 0.5F * settings_.smallest_reach * std::exp2(float(level)); }
+
+void IrradianceCache::insert(std::uint32_t index, Cells& cells) const {
     const Place& record = places_[index];
     const int level = level_of(record.reach);
-    const float size = 2.0F * settings_.smallest_reach * std::exp2(float(level));
+    const float size = cell_size(level), reach2 = record.reach * record.reach * 1.0001F;
     const Cell low = cell_of(record.position - vec3(record.reach), size);
     const Cell high = cell_of(record.position + vec3(record.reach), size);
     for (int z = low.z; z <= high.z; ++z) {
         for (int y = low.y; y <= high.y; ++y) {
             for (int x = low.x; x <= high.x; ++x) {
-                cells_[cell_key(level, {x, y, z})].push_back(index);
+                const vec3 corner = vec3(float(x), float(y), float(z)) * size;
+                const vec3 off = record.position - glm::clamp(record.position, corner, corner + size);
+                if (glm::dot(off, off) <= reach2) {
+                    cells[cell_key(level, {x, y, z})].push_back(index);
+                }
             }
         }
     }
@@ -74,15 +81,14 @@ bool IrradianceCache::sees(const Place& r, const vec3& point, const vec3& normal
            !rays_.occluded(r.position + r.normal * lift, point + normal * lift);
 }
 
-template <typename Take> void IrradianceCache::each_near(const vec3& point, const vec3& normal, Take&& take) const {
+template <typename Take> void IrradianceCache::each_near(const Cells& cells, const vec3& point, Take&& take) const {
     for (int level = 0; level < levels_; ++level) {
-        const float size = 2.0F * settings_.smallest_reach * std::exp2(float(level));
-        const auto it = cells_.find(cell_key(level, cell_of(point, size)));
-        if (it == cells_.end()) {
+        const auto it = cells.find(cell_key(level, cell_of(point, cell_size(level))));
+        if (it == cells.end()) {
             continue;
         }
         for (const std::uint32_t index : it->second) {
-            if (!take(Use{index, weight(places_[index], point, normal)})) {
+            if (!take(index)) {
                 return;
             }
         }
@@ -91,8 +97,9 @@ template <typename Take> void IrradianceCache::each_near(const vec3& point, cons
 
 bool IrradianceCache::reached(const vec3& point, const vec3& normal) const {
     bool found = false;
-    each_near(point, normal, [&](const Use& use) {
-        found = use.weight > kWithinReach && sees(places_[use.record], point, normal);
+    each_near(cells_, point, [&](std::uint32_t index) {
+        const Place& record = places_[index];
+        found = weight(record, point, normal) > kWithinReach && sees(record, point, normal);
         return !found;
     });
     return found;
@@ -102,9 +109,10 @@ std::size_t IrradianceCache::find(const vec3& point, const vec3& normal, std::ui
                                   std::array<Use, kMostUsed>& out) const {
     thread_local std::vector<Use> heap; // the heaviest on top, of equal ones the first that was met
     heap.clear();
-    each_near(point, normal, [&](const Use& use) {
-        if (use.weight > 0.0F && use.record != skip) {
-            heap.push_back(use);
+    each_near(cells_, point, [&](std::uint32_t index) {
+        const float heavy = index != skip ? weight(places_[index], point, normal) : 0.0F;
+        if (heavy > 0.0F) {
+            heap.push_back({index, heavy});
         }
         return true;
     });
@@ -214,17 +222,14 @@ bool IrradianceCache::add_round(std::span<const SurfacePoint> points, std::vecto
         make_frame(p.normal, r.tangent, b);
         records_.push_back(r);
         places_.push_back(place);
-        insert(std::uint32_t(records_.size() - 1));
+        insert(std::uint32_t(records_.size() - 1), cells_);
     }
     open = std::move(left);
     return true;
 }
 
-bool IrradianceCache::cover_reach(std::span<const SurfacePoint> points, const RunContext& context) {
-    std::vector<std::uint32_t> open(points.size());
-    for (std::uint32_t i = 0; i < open.size(); ++i) {
-        open[i] = i;
-    }
+bool IrradianceCache::cover_reach(std::span<const SurfacePoint> points, std::vector<std::uint32_t> open,
+                                  const RunContext& context) {
     // Wide steps first: where much is far away few records do, and what they leave is filled by closer ones.
     for (float separation = settings_.largest_reach; !open.empty() && records_.size() < settings_.max_records;
          separation *= 0.5F) {
@@ -303,31 +308,27 @@ void IrradianceCache::fit_gradients(std::size_t first, const RunContext& context
     });
 }
 
-std::size_t IrradianceCache::shorten() {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < records_.size(); ++i) {
+IrradianceCache::Cells IrradianceCache::shorten() {
+    Cells before;
+    for (std::uint32_t i = 0; i < records_.size(); ++i) {
         float& reach = places_[i].reach;
         // Between records the error is smaller than at one that is left out: about half. What chance explains is none.
         const float noise =
             3.0F * std::sqrt(records_[i].variance) / std::max(luminance(records_[i].irradiance), settings_.light_floor);
         if (error_[i] > std::max(2.0F * settings_.contrast, noise) && reach > settings_.smallest_reach) {
-            reach = std::max(0.6F * reach, settings_.smallest_reach);
-            ++count;
+            insert(i, before);
+            reach = std::max(0.6F * reach, settings_.smallest_reach); // its cells hold it still, and some more around
         }
     }
-    if (count > 0) {
-        cells_.clear();
-        for (std::uint32_t i = 0; i < records_.size(); ++i) {
-            insert(i);
-        }
-    }
-    return count;
+    return before;
 }
 
 bool IrradianceCache::cover(std::span<const SurfacePoint> points, const RunContext& context) {
+    std::vector<std::uint32_t> open(points.size()); // those that may be out of reach
+    std::iota(open.begin(), open.end(), 0U);
     for (int round = 0; round < kMostRounds; ++round) {
         const std::size_t before = records_.size();
-        if (!cover_reach(points, context)) {
+        if (!cover_reach(points, std::move(open), context)) {
             return false;
         }
         if (records_.size() == before) {
@@ -339,8 +340,20 @@ bool IrradianceCache::cover(std::span<const SurfacePoint> points, const RunConte
         if (context.should_stop()) {
             return false;
         }
-        if (shorten() == 0) {
+        const Cells shortened = shorten();
+        if (shortened.empty()) {
             break;
+        }
+        open.clear();
+        for (std::uint32_t i = 0; i < points.size(); ++i) {
+            bool near = false;
+            each_near(shortened, points[i].position, [&](std::uint32_t) {
+                near = true;
+                return false;
+            });
+            if (near) {
+                open.push_back(i);
+            }
         }
     }
     return true;

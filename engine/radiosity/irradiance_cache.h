@@ -64,27 +64,31 @@ private:
         std::uint32_t record;
         float weight;
     };
+    using Cells = std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>;
     static constexpr std::size_t kMostUsed = 12;
 
     [[nodiscard]] float weight(const Place& r, const vec3& point, const vec3& normal) const;
     [[nodiscard]] bool sees(const Place& r, const vec3& point, const vec3& normal) const;
-    /// Calls `take` with the records whose cells a point lies in, and their weight there, until it returns false.
-    template <typename Take> void each_near(const vec3& point, const vec3& normal, Take&& take) const;
+    /// Calls `take` with the records in whose cells a point lies until it returns false.
+    template <typename Take> void each_near(const Cells& cells, const vec3& point, Take&& take) const;
     /// Some record reaches a point and can be seen from it.
     [[nodiscard]] bool reached(const vec3& point, const vec3& normal) const;
     /// The heaviest kMostUsed of the records that reach a point and can be seen from it, the heaviest first; `skip` is left
     /// out. Returns their number.
     std::size_t find(const vec3& point, const vec3& normal, std::uint32_t skip, std::array<Use, kMostUsed>& out) const;
     [[nodiscard]] Rgb predict(std::uint32_t record, const vec3& point) const;
-    void insert(std::uint32_t record);
+    /// Into all cells that the record reaches.
+    void insert(std::uint32_t record, Cells& cells) const;
     bool add_round(std::span<const SurfacePoint> points, std::vector<std::uint32_t>& open, float separation,
                    const RunContext& context);
-    bool cover_reach(std::span<const SurfacePoint> points, const RunContext& context);
+    /// Makes records until each of the `open` points is within reach of one.
+    bool cover_reach(std::span<const SurfacePoint> points, std::vector<std::uint32_t> open, const RunContext& context);
     /// Gradients and errors of the records from `first` on.
     void fit_gradients(std::size_t first, const RunContext& context);
-    /// Shortens the reach of records that their neighbours do not predict and finds their cells anew; number of them.
-    std::size_t shorten();
+    /// Shortens the reach of records that their neighbours do not predict; where these reached before.
+    Cells shorten();
     [[nodiscard]] int level_of(float reach) const;
+    [[nodiscard]] float cell_size(int level) const;
     [[nodiscard]] static std::uint64_t cell_key(int level, const glm::vec<3, std::int32_t>& cell);
 
     const RayScene& rays_;
@@ -94,7 +98,7 @@ private:
     std::vector<Place> places_; ///< of the records
     std::vector<float> error_;  ///< per record, relative, of the interpolation from its neighbours; negative = not known
     int levels_ = 1;
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+    Cells cells_;
 };
 
 } // namespace atrium

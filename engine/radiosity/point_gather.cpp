@@ -15,7 +15,7 @@ using Kind = Element::Kind;
 
 /// One element of the cut.
 struct CutNode {
-    std::uint32_t element = 0;
+    const GatherNode* node = nullptr;
     Rgb contribution{0.0F}; ///< unoccluded irradiance
     float error = 0.0F;     ///< of its luminance, unoccluded; what refinement goes by
 };
@@ -110,20 +110,26 @@ Rgb faces_one_by_one(const Hierarchy& h, const RayScene& rays, const Element& e,
 }
 
 // What can be seen of patches and faces over a mirror is cut out exactly; clusters count as if all of them could be seen.
-CutNode evaluate(const Hierarchy& h, const RayScene& rays, const FarFaces* far, std::uint32_t index, const SurfacePoint& p,
-                 const MirrorSight* over, float spread) {
-    const Element& e = h.elements[index];
+CutNode evaluate(const Hierarchy& h, const RayScene& rays, const FarFaces* far, const GatherNode& node,
+                 const SurfacePoint& p, const MirrorSight* over, float spread) {
+    const Element& e = h.elements[node.element];
     CutNode out;
-    out.element = index;
-    if (!(e.power > 0.0F)) {
-        return out;
-    }
-    const vec3 d = e.centre - p.position;
-    if (glm::dot(d, p.normal) <= -e.radius) {
+    out.node = &node;
+    const vec3 d = node.centre - p.position;
+    if (glm::dot(d, p.normal) <= -node.radius) {
         return out; // below the horizon
     }
-    if (over != nullptr && over->misses(e.centre, e.radius)) {
+    if (node.turns_away_from(p.position)) {
         return out;
+    }
+    if (over != nullptr) {
+        if (over->misses(node.centre, node.radius)) {
+            return out;
+        }
+        spread = 0.0F;
+        if (e.kind != Kind::Cluster && over->holds(e.centre, e.radius)) {
+            over = nullptr; // nothing to cut out
+        }
     }
     if (e.kind == Kind::Patch) {
         if (!faces_point(e.centre, e.normal, p)) {
@@ -138,7 +144,7 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, const FarFaces* far, 
     }
     const float r = glm::length(d);
     if (e.kind == Kind::Faces) {
-        const float factor = far != nullptr && over == nullptr ? far->factor(h, index, p) : -1.0F;
+        const float factor = far != nullptr && over == nullptr ? far->factor(h, node.element, p) : -1.0F;
         if (factor >= 0.0F) {
             out.contribution = e.radiosity * factor;
             return out;
@@ -147,12 +153,12 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, const FarFaces* far, 
             out.contribution = faces_one_by_one(h, rays, e, p, over, spread);
             return out;
         }
-    } else if (r < 1.5F * e.radius) {
+    } else if (r < 1.5F * node.radius) {
         // Inside or beside it no direction describes it: its parts are looked at, the brightest elements first. Should the
         // cut be full before, it counts as a uniform surrounding.
-        const float reach2 = std::max(r * r, 0.25F * e.radius * e.radius);
+        const float reach2 = std::max(r * r, 0.25F * node.radius * node.radius);
         out.error = e.power / (kPi * reach2);
-        out.contribution = e.radiosity * (0.5F * std::min(1.0F, e.area / (4.0F * kPi * e.radius * e.radius)));
+        out.contribution = e.radiosity * (0.5F * std::min(1.0F, e.area / (4.0F * kPi * node.radius * node.radius)));
         return out;
     }
     const vec3 w = d / r;
@@ -162,7 +168,7 @@ CutNode evaluate(const Hierarchy& h, const RayScene& rays, const FarFaces* far, 
     out.contribution = towards * (kernel * std::max(cosine, 0.0F));
     // Cosine and distance vary by about `ratio` over the element, visibility by anything; the harmonics themselves are off
     // by up to a tenth of the peak, which at grazing angles is more than the light itself.
-    const float ratio = e.radius / r;
+    const float ratio = node.radius / r;
     const float bound =
         std::max(luminance(towards), 0.1F * e.power) * kernel * std::min(std::max(cosine, 0.0F) + ratio, 1.0F);
     out.error = e.leaf() ? 0.1F * e.power * kernel * std::max(cosine, 0.0F) : bound * ratio;
@@ -296,27 +302,26 @@ DirectSample PointGather::irradiance(const MirrorSight& over, const GatherSettin
 
 void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& settings, const MirrorSight* over,
                                DirectSample& out) const {
-    if (h_.empty() || !(h_.elements[0].power > 0.0F)) {
+    if (tree_.empty()) {
         return;
     }
     const auto smaller_error = [](const CutNode& a, const CutNode& b) {
-        return a.error < b.error || (a.error == b.error && a.element > b.element);
+        return a.error < b.error || (a.error == b.error && a.node > b.node);
     };
     // Whatever may hold leaves that are too near is opened first.
-    const auto look = [&](std::uint32_t index) {
-        CutNode node = evaluate(h_, rays_, far_, index, p, over, settings.spread);
-        if (settings.nearest > 0.0F && over == nullptr && h_.elements[index].power > 0.0F) {
-            const Element& e = h_.elements[index];
-            if (too_near(e, p.position, settings.nearest)) {
-                return CutNode{index};
+    const auto look = [&](const GatherNode& node) {
+        CutNode seen = evaluate(h_, rays_, far_, node, p, over, settings.spread);
+        if (settings.nearest > 0.0F && over == nullptr && luminance(seen.contribution) + seen.error > 0.0F) {
+            if (too_near(h_.elements[node.element], p.position, settings.nearest)) {
+                return CutNode{&node};
             }
-            if (!e.leaf() && glm::length(e.centre - p.position) < (1.0F + settings.nearest) * e.radius) {
-                node.error = std::numeric_limits<float>::max();
+            if (node.child_count > 0 && node.may_be_near(p.position, settings.nearest)) {
+                seen.error = std::numeric_limits<float>::max();
             }
         }
-        return node;
+        return seen;
     };
-    std::vector<CutNode> cut{look(0)};
+    std::vector<CutNode> cut{look(tree_.root())};
     std::vector<CutNode> done; // nothing below them would change the result
     float total = luminance(cut[0].contribution + out.irradiance);
     while (!cut.empty() && cut.size() + done.size() < settings.max_cut) {
@@ -327,15 +332,15 @@ void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& sett
         std::pop_heap(cut.begin(), cut.end(), smaller_error);
         cut.pop_back();
         total -= luminance(top.contribution);
-        const Element& e = h_.elements[top.element];
+        const Element& e = h_.elements[top.node->element];
         if (e.kind == Kind::Faces) {
-            const CutNode exact{top.element, faces_one_by_one(h_, rays_, e, p, over, settings.spread), 0.0F};
+            const CutNode exact{top.node, faces_one_by_one(h_, rays_, e, p, over, settings.spread), 0.0F};
             total += luminance(exact.contribution);
             done.push_back(exact);
             continue;
         }
-        for (std::uint32_t k = 0; k < e.child_count; ++k) {
-            const CutNode child = look(e.first_child + k);
+        for (const GatherNode& below : tree_.children(*top.node)) {
+            const CutNode child = look(below);
             const float light = luminance(child.contribution);
             total += light;
             if (child.error > 0.0F) {
@@ -355,7 +360,7 @@ void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& sett
         return;
     }
     // Strong elements get rays of their own; the many weak ones share theirs: stratified picks along their summed light.
-    std::sort(done.begin(), done.end(), [](const CutNode& a, const CutNode& b) { return a.element < b.element; });
+    std::sort(done.begin(), done.end(), [](const CutNode& a, const CutNode& b) { return a.node < b.node; });
     const float own_ray = 0.5F * unoccluded / float(settings.rays);
     float weak = 0.0F;
     SingleRays single;
@@ -368,7 +373,7 @@ void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& sett
         // Powers of two: the samples are stratified best, and neighbouring points use the very same ones.
         const float wanted = light / unoccluded * float(settings.rays);
         const auto count = unsigned(std::exp2(std::round(std::log2(std::max(wanted, 1.0F)))));
-        const Visibility v = visibility(node.element, p, count, over);
+        const Visibility v = visibility(node.node->element, p, count, over);
         out.irradiance += node.contribution * v.seen;
         const auto n = float(v.rays);
         if (n > 1.0F && v.clear > 0.0F && v.clear < n) {
@@ -384,12 +389,12 @@ void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& sett
     for (const CutNode& node : done) {
         const float light = luminance(node.contribution);
         // Every element has its own fixed number: neighbouring points pick the same ones, and their error is the same too.
-        const float chance = unit_float(std::uint32_t(hash64(h_.elements[node.element].path ^ kPickSalt) >> 32));
+        const float chance = unit_float(std::uint32_t(hash64(h_.elements[node.node->element].path ^ kPickSalt) >> 32));
         if (light >= own_ray || !(light > chance * stride)) {
             continue;
         }
         const float weight = std::max(light, stride);
-        const Visibility v = visibility(node.element, p, 1, over);
+        const Visibility v = visibility(node.node->element, p, 1, over);
         sum += node.contribution * (weight / light) * v.seen;
         picked += weight;
         single.add(weight, v.clear);

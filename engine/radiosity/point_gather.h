@@ -4,6 +4,7 @@
 
 #include "engine/radiosity/direct_light.h"
 #include "engine/radiosity/far_faces.h"
+#include "engine/radiosity/gather_tree.h"
 #include "engine/radiosity/hierarchy.h"
 
 namespace atrium {
@@ -24,13 +25,13 @@ struct GatherSettings {
 /// An element is a leaf whose middle is nearer to a point than so many of its radii: see GatherSettings::nearest.
 [[nodiscard]] bool too_near(const Element& element, const vec3& point, float radii);
 
-/// Safe from any thread while the hierarchy does not change.
+/// Safe from any thread while the hierarchy does not change; what shines in it is looked up when this is made.
 class PointGather {
 public:
     /// Without `direct` it gathers from the tree alone, without `far` from every face of a group, however far away.
     PointGather(const Hierarchy& hierarchy, const RayScene& rays, const DirectLight* direct = nullptr,
                 const FarFaces* far = nullptr)
-        : h_(hierarchy), rays_(rays), direct_(direct), far_(far) {}
+        : h_(hierarchy), rays_(rays), direct_(direct), far_(far), tree_(hierarchy) {}
 
     /// Irradiance on a small plane at `point` (engine coordinates) with unit `normal`, surfaces, sun, sky and lamps
     /// together.
@@ -54,6 +55,7 @@ private:
     const RayScene& rays_;
     const DirectLight* direct_;
     const FarFaces* far_;
+    GatherTree tree_;
 };
 
 } // namespace atrium

@@ -51,6 +51,12 @@ bool MirrorSight::misses(const vec3& centre, float radius) const {
            glm::dot(edge_[2], d) < -radius || glm::dot(edge_[3], d) < -radius;
 }
 
+bool MirrorSight::holds(const vec3& centre, float radius) const {
+    const vec3 d = centre - image_;
+    return glm::dot(side_, d) >= height_ + radius && glm::dot(edge_[0], d) >= radius && glm::dot(edge_[1], d) >= radius &&
+           glm::dot(edge_[2], d) >= radius && glm::dot(edge_[3], d) >= radius;
+}
+
 MirrorSight::Cover MirrorSight::cover(const vec3& direction, float angle) const {
     const float reach = std::sin(angle) + kEdge;
     float least = glm::dot(side_, direction);

@@ -29,6 +29,8 @@ public:
     [[nodiscard]] bool crosses(const vec3& to) const;
     /// Nothing of a ball can be seen through the rectangle. May be false though nothing can.
     [[nodiscard]] bool misses(const vec3& centre, float radius) const;
+    /// All of a ball lies behind the rectangle, as seen from the image.
+    [[nodiscard]] bool holds(const vec3& centre, float radius) const;
     /// The cone of half angle `angle`, radians, about a unit direction from the image.
     [[nodiscard]] Cover cover(const vec3& direction, float angle) const;
     /// What of a convex polygon of at most 7 corners lies within sight through the rectangle; returns the number of corners,

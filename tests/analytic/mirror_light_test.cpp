@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace atrium {
 namespace {
 
@@ -467,6 +469,34 @@ TEST(MirrorLight, ImagesInSolutions) {
     EXPECT_GT((*paper)->statistics.particles_stored, 0U);
     const SensorReading shown = read_surface(scene, **paper, points[1].at, kWall);
     EXPECT_NEAR(luminance(shown.irradiance) / points[1].expected, 1.0, 0.1);
+}
+
+// What is held to lie wholly behind the mirror's rectangle is not cut out: all of it must be in sight.
+TEST(MirrorSight, HoldsBallsThatAreWhollyInSight) {
+    const Looker room(plane_mirror());
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> u(-3.0F, 3.0F);
+    std::normal_distribution<float> normal;
+    const MirrorSight sight(room.rays, room.mirrors.mirrors(), 0, vec3(dvec3(3, 1.5, 2) - room.rays.origin()), {-1, 0, 0});
+    ASSERT_TRUE(sight.sees());
+    const vec3 mirror(dvec3(0, 1.5, 2) - room.rays.origin());
+    int held = 0, missed = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const vec3 centre = mirror + vec3(u(random), u(random), u(random));
+        const float radius = 0.3F * std::abs(u(random)) / 3.0F;
+        const vec3 on = centre + radius * glm::normalize(vec3(normal(random), normal(random), normal(random)));
+        if (sight.holds(centre, radius)) {
+            ++held;
+            EXPECT_TRUE(sight.crosses(on));
+            EXPECT_FALSE(sight.misses(centre, radius));
+        }
+        if (sight.misses(centre, radius)) {
+            ++missed;
+            EXPECT_FALSE(sight.holds(centre, radius));
+        }
+    }
+    EXPECT_GT(held, 200);
+    EXPECT_GT(missed, 1000);
 }
 
 } // namespace
