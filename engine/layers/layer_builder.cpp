@@ -43,20 +43,11 @@ public:
                 all.push_back({&meshes_[m].vertices[v]});
             }
         }
-        bool complete = sample(all, from, from + 0.5 * (to - from));
-        for (int level = 0; complete && level < 6 && added_ < settings_.max_vertices; ++level) {
-            const double step = 0.5 * (to - from) / 6.0;
-            if (!split_by_contrast(from + 0.5 * (to - from) + step * level, from + 0.5 * (to - from) + step * (level + 1),
-                                   complete)) {
-                break;
-            }
-        }
-        complete = complete && find_all_borders();
-        if (complete && field_.prepare) {
-            sample_reflected_anew();
-        }
-        if (complete) {
-            sample_borders();
+        const double half = settings_.look_between ? from + 0.5 * (to - from) : to;
+        bool complete = sample(all, from, half);
+        borders_.resize(meshes_.size());
+        if (settings_.look_between) {
+            complete = complete && look_between(half, to);
         }
         if (!complete || context_.should_stop()) {
             return {};
@@ -73,6 +64,25 @@ private:
     struct Request {
         LightVertex* vertex;
     };
+
+    // More vertices where the light between those of the file is not what they say. False when stopped.
+    bool look_between(double from, double to) {
+        bool complete = true;
+        for (int level = 0; complete && level < 6 && added_ < settings_.max_vertices; ++level) {
+            const double step = (to - from) / 6.0;
+            if (!split_by_contrast(from + step * level, from + step * (level + 1), complete)) {
+                break;
+            }
+        }
+        complete = complete && find_all_borders();
+        if (complete && field_.prepare) {
+            sample_reflected_anew();
+        }
+        if (complete) {
+            sample_borders();
+        }
+        return complete;
+    }
 
     void collect() {
         std::map<NodeId, std::size_t> mesh_of;
@@ -262,7 +272,6 @@ private:
 
     // Where something rests on a surface, edges that run under it are followed to its border; the field is told of that.
     bool find_all_borders() {
-        borders_.resize(meshes_.size());
         std::vector<SurfacePoint> points;
         const auto place = [&](const LightVertex& v, const vec3& n) { return sample_position(v, n); };
         const auto covered_at = [&](const vec3& p, const vec3& n) {

@@ -15,13 +15,16 @@
 namespace atrium {
 
 struct LayerSettings {
-    float base_edge = 0.5F;          ///< metres: longer edges are always split
-    float smallest_edge = 0.04F;     ///< edges are not split below this
-    float contrast = 0.08F;          ///< relative deviation of a midpoint from its ends' mean that asks for a split
-    float light_floor = 1.0F;        ///< lux: differences are judged against at least this irradiance
-    float cover_reach = 0.01F;       ///< metres within which all ways out must be shut where something rests on a surface
-    bool keep_places = false;        ///< LayerSet::places is wanted
-    std::uint32_t first_surface = 0; ///< of the ray scene: layers of those from here on are built
+    float base_edge = 0.5F;      ///< metres: longer edges are always split
+    float smallest_edge = 0.04F; ///< edges are not split below this
+    float contrast = 0.08F;      ///< relative deviation of a midpoint from its ends' mean that asks for a split
+    float light_floor = 1.0F;    ///< lux: differences are judged against at least this irradiance
+    float cover_reach = 0.01F;   ///< metres within which all ways out must be shut where something rests on a surface
+    /// Light is looked at between vertices and at the borders of what covers them. Without, it is that of the vertices
+    /// alone: a picture in half the time.
+    bool look_between = true;
+    bool keep_places = false;                 ///< LayerSet::places is wanted
+    std::uint32_t first_surface = 0;          ///< of the ray scene: layers of those from here on are built
     std::uint32_t last_surface = 0xFFFFFFFFU; ///< and before this one
     std::size_t max_vertices = 600'000;       ///< added vertices at most; the strongest contrasts first
 };

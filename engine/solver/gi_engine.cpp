@@ -320,7 +320,9 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
             return stopped();
         }
         if (!options.skip_first_picture) {
-            LayerSet first = layers(quality.first_layers, quality.first_field, 0.14, 0.2);
+            LayerSettings at_once = quality.first_layers;
+            at_once.look_between = false;
+            LayerSet first = layers(at_once, quality.first_field, 0.14, 0.2);
             timer.stop();
             if (!first.complete) {
                 return stopped();

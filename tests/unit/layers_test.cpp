@@ -1,4 +1,5 @@
 // The meshes that are shown: conforming, valid, lit where light is, whole where something rests on them.
+#include "engine/base/parallel.h"
 #include "engine/layers/layer_builder.h"
 #include "engine/radiosity/point_gather.h"
 #include "engine/raycast/ray_scene.h"
@@ -353,6 +354,51 @@ TEST(Layers, VertexBudgetIsKept) {
         solution.surfaces = set->surfaces;
         EXPECT_EQ(t_vertices(scene, solution, scene.roots[0]), 0);
     }
+}
+
+// The first picture has to be there at once: light of the vertices alone, asked for once, and nothing between them.
+TEST(Layers, WithoutALookBetweenVerticesEachIsAskedOnce) {
+    Scene scene;
+    add_room(scene, 4, 2.5F, 3, add_material(scene, 0.6F));
+    add_node(scene, "box", Box{{0.6F, 0.5F, 0.7F}}, {1.1, 0.25, 1.3}, add_material(scene, 0.6F));
+    const RayScene rays(scene);
+    LayerSettings settings;
+    settings.base_edge = 1.0F;
+    settings.contrast = 0.01F;
+    std::size_t asked = 0, told = 0;
+    const auto build = [&](bool look_between) {
+        settings.look_between = look_between;
+        asked = told = 0;
+        const LightField field{
+            [&](std::span<const SurfacePoint> points) {
+                told += points.size();
+                return true;
+            },
+            [&](const vec3& p, const vec3&) {
+                ++asked;
+                return DirectSample{Rgb(100.0F + 60.0F * std::sin(8.0F * (p.x + p.y + p.z))), 0.0F};
+            },
+            [](const vec3&, const vec3&) { return DirectSample{}; },
+        };
+        set_thread_limit(1); // `asked` is no atomic number
+        LayerSet set = build_layers(
+            rays, field, {}, settings, [](std::uint32_t) { return false; }, RunContext{}, 0.0, 1.0);
+        set_thread_limit(0);
+        return set;
+    };
+    const LayerSet quick = build(false);
+    ASSERT_TRUE(quick.complete);
+    EXPECT_EQ(asked, told);
+    EXPECT_LE(asked, quick.vertices);
+    EXPECT_GT(asked, quick.vertices / 2);
+    Solution solution;
+    solution.surfaces = quick.surfaces;
+    for (const NodeId node : scene.roots) {
+        EXPECT_EQ(t_vertices(scene, solution, node), 0);
+    }
+    const LayerSet close = build(true);
+    ASSERT_TRUE(close.complete);
+    EXPECT_GT(close.vertices, 2 * quick.vertices) << "this light changes within half a metre";
 }
 
 TEST(DisplayMeshTest, UnlitTrianglesOfAPart) {
