@@ -146,6 +146,13 @@ TEST_F(QualityTest, WhatTheEngineIsDoingIsNotCut) {
     EXPECT_EQ(phase->width(), times->width());
     EXPECT_GT(phase->width(), phase->parentWidget()->width() - 24) << "a line of its own";
     EXPECT_GE(phase->height(), phase->fontMetrics().height());
+    // Nor is it in the status bar when the text grows, before anything is laid out again.
+    auto* badge = window->findChild<QLabel*>(QStringLiteral("light_state"));
+    ASSERT_NE(badge, nullptr);
+    for (const char* text : {"Solving 9 %", "Solving 12 %", "Settled, refining 99 %"}) {
+        badge->setText(QLatin1StringView(text));
+        EXPECT_GE(badge->width(), badge->fontMetrics().horizontalAdvance(badge->text())) << text;
+    }
 }
 
 } // namespace

@@ -263,6 +263,8 @@ LightBadge::LightBadge(EngineLink& engine, QWidget* parent) : QWidget(parent), e
     dot_ = new QLabel;
     text_ = new QLabel;
     text_->setObjectName(QStringLiteral("light_state"));
+    // Room for what changes many times a second: a label that grows is cut until the status bar comes to lay itself out.
+    text_->setMinimumWidth(text_->fontMetrics().horizontalAdvance(JobsPanel::tr("Settled, refining %1 %").arg(100)));
     layout->addWidget(dot_);
     layout->addWidget(text_);
     connect(&engine_, &EngineLink::status_changed, this, &LightBadge::refresh);
