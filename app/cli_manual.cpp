@@ -1,6 +1,7 @@
 #include "app/cli_manual.h"
 
 #include "app/cli_support.h"
+#include "app/cli_thresholds.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -41,6 +42,9 @@ app::OptionHelp describe(const CLI::Option& option) {
         out.choices = choices_in(type);
         out.value = type.substr(0, type.find(':'));
         out.value = out.value == "TEXT" ? "VALUE" : out.value == "FLOAT" || out.value == "UINT" ? "NUMBER" : out.value;
+    }
+    if (option.check_lname("threshold")) {
+        out.beginnings = threshold_beginnings();
     }
     out.text = option.get_description();
     if (option.get_required() && !option.get_positional()) {

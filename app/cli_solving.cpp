@@ -69,6 +69,15 @@ std::shared_ptr<const Solution> look_at_error(const Solved& solved, const SolveA
     return audited(solved.scene, solved.solution, settings, unhurried);
 }
 
+/// Puts the thresholds of the command line into the scene. True where that changes what the light is made with.
+bool take_thresholds(Scene& scene, const SolveArguments& arguments) {
+    const SolverThresholds before = scene.settings.thresholds;
+    for (const auto& [info, value] : arguments.thresholds) {
+        scene.settings.thresholds.*info->value = value;
+    }
+    return scene.settings.thresholds != before;
+}
+
 } // namespace
 
 void set_options(SolveOptions& options, const Scene& scene, const SolveArguments& arguments) {
@@ -114,6 +123,27 @@ void add_solve_options(CLI::App& command, SolveArguments& a) {
             "MiB that the light may take; where it takes more it gets coarser (default: half of the machine's)")
         ->check(CLI::Range(16.0, 1e7))
         ->group(group);
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--threshold",
+            [&a](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts) {
+                    a.thresholds.push_back(*parse_threshold(text));
+                }
+            },
+            "Set by hand what the quality stands for; once for each threshold. The project written keeps it; NAME=auto "
+            "takes "
+            "back what the project says. Names, and what VALUE may be:\n" +
+                threshold_help())
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false)
+        ->check(CLI::Validator(
+            [](std::string& text) {
+                const auto parsed = parse_threshold(text);
+                return parsed ? std::string() : parsed.error().message();
+            },
+            ""))
+        ->group(group);
     command.add_option("--seed", a.seed, "Seed of the random numbers")->group(group);
     command.add_option("--mode", a.mode, "default, or paper: caustic textures by the algorithms of 2001")
         ->check(CLI::IsMember({"default", "paper"}))
@@ -150,6 +180,9 @@ tl::expected<Solved, int> open_scene(const std::string& file, const SolveArgumen
             complain(fmt::format("warning: {}: nothing in it gives light, so all is dark. --daylight adds a sun and a sky",
                                  file));
         }
+    }
+    if (take_thresholds(solved.scene, arguments)) {
+        loaded->solution.clear(); // the light of others
     }
     if (!loaded->solution.empty()) {
         auto stored = decode_solution(loaded->solution, solved.scene);

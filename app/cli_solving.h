@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/cli_support.h"
+#include "app/cli_thresholds.h"
 #include "engine/solver/gi_engine.h"
 
 #include <memory>
@@ -22,6 +23,7 @@ struct SolveArguments {
     std::optional<unsigned> threads;
     std::optional<std::uint32_t> seed;
     std::optional<std::string> mode;
+    std::vector<ThresholdWish> thresholds; ///< in the order given, the last of a name counts
     std::string stats;
     bool progress = false;
     bool daylight = false; ///< add a sun and a sky where the file has no light

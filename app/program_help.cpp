@@ -113,9 +113,11 @@ std::string value_cases(const std::vector<OptionHelp>& options, const std::strin
             continue;
         }
         out += fmt::format("{}{})\n", indent, joined(option.names, "|"));
-        out += option.choices.empty()
-                   ? fmt::format("{}    _filedir\n", indent)
-                   : fmt::format("{}    COMPREPLY=($(compgen -W '{}' -- \"$cur\"))\n", indent, joined(option.choices, " "));
+        const bool begun = !option.beginnings.empty();
+        const std::vector<std::string>& words = begun ? option.beginnings : option.choices;
+        out += words.empty() ? fmt::format("{}    _filedir\n", indent)
+                             : fmt::format("{}    COMPREPLY=($(compgen -W '{}' -- \"$cur\"))\n", indent, joined(words, " "));
+        out += begun ? fmt::format("{}    compopt -o nospace\n", indent) : "";
         out += fmt::format("{}    return ;;\n", indent);
     }
     return out;

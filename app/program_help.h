@@ -11,7 +11,8 @@ struct OptionHelp {
     std::string value;                ///< what stands for its value, as "SECONDS"; empty for a switch
     std::vector<std::string> choices; ///< the only values it takes, when there are few
     std::string text;
-    std::string group; ///< heading it stands under; empty: none of its own
+    std::string group;                     ///< heading it stands under; empty: none of its own
+    std::vector<std::string> beginnings{}; ///< of its values, when the rest is to be typed, as "width="
 };
 
 struct CommandHelp {

@@ -2966,6 +2966,21 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
 </context>
 <context>
+    <name>atrium::ui::AutomaticText</name>
+    <message>
+        <source>automatic</source>
+        <translation>automatique</translation>
+    </message>
+    <message>
+        <source>automatic (%1)</source>
+        <translation>automatique (%1)</translation>
+    </message>
+    <message>
+        <source>auto (%1)</source>
+        <translation>auto (%1)</translation>
+    </message>
+</context>
+<context>
     <name>atrium::ui::CameraSection</name>
     <message>
         <source>Camera</source>
@@ -3159,14 +3174,6 @@ Vérifiez que le nom du fichier est correct.</translation>
     <message>
         <source>Reset caustics to automatic</source>
         <translation>Remettre les caustiques en automatique</translation>
-    </message>
-    <message>
-        <source>automatic (%1)</source>
-        <translation>automatique (%1)</translation>
-    </message>
-    <message>
-        <source>automatic</source>
-        <translation>automatique</translation>
     </message>
 </context>
 <context>
@@ -5099,11 +5106,14 @@ Vérifiez que le nom du fichier est correct.</translation>
     </message>
     <message numerus="yes">
         <source>Thresholds: %n set by hand</source>
-        <translation><numerusform>Seuils : %n réglé à la main</numerusform><numerusform>Seuils : %n réglés à la main</numerusform></translation>
+        <translation>
+            <numerusform>Seuils : %n réglé à la main</numerusform>
+            <numerusform>Seuils : %n réglés à la main</numerusform>
+        </translation>
     </message>
     <message>
-        <source>automatic (%1)</source>
-        <translation>automatique (%1)</translation>
+        <source>%1 to %2 are possible: %3 is used</source>
+        <translation>De %1 à %2 possible : %3 est utilisé</translation>
     </message>
 </context>
 <context>

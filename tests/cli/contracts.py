@@ -50,6 +50,12 @@ class Requests(CliTest):
         self.assertEqual(json.loads(self.read("paper.json"))["mode"], "paper")
         self.refused("solve", self.room, "--mode", "newest")
 
+    def test_thresholds_that_are_not_there(self):
+        self.refused("solve", self.room, "--threshold", "elementSize=1", says=["'elementSize' is not a threshold", "elementEdge", "causticDispersion"])
+        self.refused("solve", self.room, "--threshold", "elementEdge", says=["elementEdge", "0.002 to 100 m"])
+        for value in ("0.001", "101", "nan", "inf", "1x", "-1", "0"):
+            self.refused("solve", self.room, "--threshold", "elementEdge=" + value, says=["'%s' is not a value of elementEdge" % value, "0.002 to 100 m, or auto"])
+
     def test_missing_file_is_named(self):
         for command in ("info", "check", "solve"):
             self.refused(command, self.path("nowhere.glb"), says=["nowhere.glb"])
@@ -199,6 +205,25 @@ class Solve(CliTest):
         self.assertTrue(reused("--error", "1"))
         self.assertFalse(reused("--seed", "99"))
         self.assertFalse(reused("--quality", "fine"))
+
+    def test_thresholds_reach_the_light_and_are_kept(self):
+        project = self.path("room.atrium")
+
+        def solved(*options):
+            return json.loads(self.run_cli("solve", *options, "--stats", "-", "--quality", "draft").stdout)
+
+        automatic = solved(self.room)
+        # Before FILE, too: it takes one word and no more.
+        finer = solved("--threshold", "elementEdge=0.1", "--threshold", "linkShare=1e-5", self.room, "-o", project)
+        self.assertGreater(finer["elements"], 2 * automatic["elements"])
+        with open(project, "rb") as f:
+            document = json.loads(f.read(struct.unpack("<4sII I4s", f.read(20))[3]))
+        self.assertEqual(document["extensions"]["ATRIUM_settings"]["thresholds"], {"elementEdge": 0.1, "linkShare": 1e-5})
+        self.assertTrue(solved(project)["solution_reused"])
+        self.assertTrue(solved(project, "--threshold", "elementEdge=0.1")["solution_reused"], "what it has")
+        back = solved(project, "--threshold", "elementEdge=auto", "--threshold", "linkShare=auto")
+        self.assertFalse(back["solution_reused"])
+        self.assertEqual(back["elements"], automatic["elements"])
 
     def test_wrong_outputs_are_refused_before_solving(self):
         start = time.monotonic()

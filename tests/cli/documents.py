@@ -77,6 +77,7 @@ class Documents(unittest.TestCase):
             self.assertEqual(completions(script, ["atrium-cli", "so"]), {"solve"})
             self.assertEqual(completions(script, ["atrium-cli", "solve", "--qu"]), {"--quality"})
             self.assertEqual(completions(script, ["atrium-cli", "solve", "--quality", ""]), {"draft", "normal", "fine"})
+            self.assertEqual(completions(script, ["atrium-cli", "solve", "--threshold", "mesh"]), {"meshEdge=", "meshContrast="})
             for name in ("a.glb", "b.txt"):
                 open(os.path.join(folder, name), "w").close()
             self.assertEqual(completions(script, ["atrium-cli", "info", folder + "/"]), {folder + "/a.glb"})

@@ -1,6 +1,7 @@
 #include "ui/panels/caustic_section.h"
 
 #include "engine/scene/edit_tools.h"
+#include "ui/panels/automatic_text.h"
 
 #include <QComboBox>
 #include <QLabel>
@@ -36,14 +37,16 @@ CausticSection::CausticSection(Document& document) : Section(tr("Set by hand"), 
         [each] { return each([](const CausticWish& w) { return int(w.show); }); },
         [this](int index) { return write([index](CausticWish& w) { w.show = CausticWish::Show(index); }); });
     show->setObjectName(QStringLiteral("caustic_show"));
-    texel_ = add_number(
+    NumberField* texel = add_number(
         tr("Texel size"), texel_format(), [each] { return each([](const CausticWish& w) { return double(w.texel); }); },
         [this](double value) { return write([value](CausticWish& w) { w.texel = float(value); }); });
-    threshold_ = add_number(
+    texel_ = new AutomaticText(texel, 0);
+    NumberField* threshold = add_number(
         tr("Threshold"), NumberFormat::plain(0, 1e6, 2),
         [each] { return each([](const CausticWish& w) { return double(w.threshold); }); },
         [this](double value) { return write([value](CausticWish& w) { w.threshold = float(value); }); });
-    threshold_->set_hint(tr("Standard deviations by which light must be more uneven than chance to get a texture"));
+    threshold_ = new AutomaticText(
+        threshold, 0, tr("Standard deviations by which light must be more uneven than chance to get a texture"));
     reset_ = new QPushButton(tr("Reset to Automatic"));
     reset_->setObjectName(QStringLiteral("caustic_reset"));
     connect(reset_, &QPushButton::clicked, this,
@@ -55,11 +58,10 @@ void CausticSection::set_targets(std::vector<NodeId> nodes, const CausticRow* cu
     nodes_ = std::move(nodes);
     // What is automatic is told, so that one knows what to start from.
     const bool texel_known = current != nullptr && current->has_texture() && !(current->record.wish.texel > 0.0F);
-    texel_->set_absent(0, texel_known ? tr("automatic (%1)").arg(length_text(current->texel())) : tr("automatic"));
+    texel_->set_amount(texel_known ? length_text(current->texel()) : QString());
     const bool threshold_known = current != nullptr && !current->paper && !(current->record.wish.threshold > 0.0F) &&
                                  current->record.threshold > 0.0F;
-    threshold_->set_absent(0,
-                           threshold_known ? tr("automatic (%1)").arg(double(current->record.threshold)) : tr("automatic"));
+    threshold_->set_amount(threshold_known ? QStringLiteral("%1").arg(double(current->record.threshold)) : QString());
     refresh();
 }
 

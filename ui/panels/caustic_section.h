@@ -8,6 +8,8 @@ class QPushButton;
 
 namespace atrium::ui {
 
+class AutomaticText;
+
 /// UI thread only.
 class CausticSection : public Section {
     Q_OBJECT
@@ -25,8 +27,8 @@ private:
     [[nodiscard]] SceneEdit write(const std::function<void(CausticWish&)>& change) const;
 
     std::vector<NodeId> nodes_;
-    NumberField* texel_ = nullptr;
-    NumberField* threshold_ = nullptr;
+    AutomaticText* texel_ = nullptr;
+    AutomaticText* threshold_ = nullptr;
     QPushButton* reset_ = nullptr;
 };
 

@@ -1,6 +1,7 @@
 #include "ui/panels/jobs_panel.h"
 
 #include "ui/document/engine_text.h"
+#include "ui/panels/elided_label.h"
 #include "ui/panels/number_parse.h"
 #include "ui/panels/quality_section.h"
 
@@ -113,11 +114,11 @@ JobsPanel::JobsPanel(Document& document, EngineLink& engine, QWidget* parent) : 
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(8, 8, 8, 8);
     auto* top = new QHBoxLayout;
-    state_ = new QLabel;
+    state_ = new ElidedLabel;
+    state_->setObjectName(QStringLiteral("job_state"));
     QFont bold = state_->font();
     bold.setBold(true);
     state_->setFont(bold);
-    state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     toggle_ = new QPushButton;
     toggle_->setObjectName(QStringLiteral("job_toggle"));
     top->addWidget(state_, 1);
@@ -129,14 +130,17 @@ JobsPanel::JobsPanel(Document& document, EngineLink& engine, QWidget* parent) : 
     bar_->setMaximumHeight(10);
     bar_->setAccessibleName(tr("Progress of the light"));
     layout->addWidget(bar_);
-    auto* below = new QHBoxLayout;
-    phase_ = new QLabel;
-    phase_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred); // its text must not widen the dock
-    times_ = new QLabel;
-    times_->setAlignment(Qt::AlignRight);
-    below->addWidget(phase_, 1);
-    below->addWidget(times_);
-    layout->addLayout(below);
+    // A line each, always there: side by side a narrow dock has no room for both, and lines that come and go move what is
+    // below them.
+    phase_ = new ElidedLabel;
+    phase_->setObjectName(QStringLiteral("job_phase"));
+    times_ = new ElidedLabel;
+    times_->setObjectName(QStringLiteral("job_times"));
+    auto* lines = new QVBoxLayout;
+    lines->setSpacing(1);
+    lines->addWidget(phase_);
+    lines->addWidget(times_);
+    layout->addLayout(lines);
     auto* quality = new QualitySection(document);
     connect(quality, &Section::message, this, &JobsPanel::message);
     layout->addWidget(quality);
@@ -169,7 +173,7 @@ void JobsPanel::refresh_status() {
     if (solving != tick_.isActive()) {
         solving ? tick_.start() : tick_.stop();
     }
-    state_->setText(light_state_text(engine_));
+    state_->set_text(light_state_text(engine_));
     toggle_->setText(solving ? tr("Stop") : tr("Resume"));
     toggle_->setEnabled(solving || engine_.stale());
     // QProgressBar paints at once when its value changes, and the whole window with its 3D view comes along: 30 to 400 ms in
@@ -182,22 +186,22 @@ void JobsPanel::refresh_status() {
         phase = phase_text(status.phase);
         if (status.preparing) {
             phase = tr("Getting ready to follow edits: %1").arg(phase);
-        } else if (engine_.solution()) {
-            phase += tr(" (the picture is older)");
         }
     } else if (status.state == SessionStatus::State::Failed) {
         phase = engine_text(status.message);
     }
-    phase_->setText(phase);
-    phase_->setToolTip(phase);
+    phase_->set_text(phase);
     QString times;
     if (solving || status.elapsed_seconds > 0) {
         times = seconds_text(status.elapsed_seconds);
         if (solving && status.remaining_seconds >= 0) {
             times += tr(", about %1 left").arg(seconds_text(status.remaining_seconds));
         }
+        if (solving && !status.preparing && engine_.solution()) {
+            times += tr(" (the picture is older)");
+        }
     }
-    times_->setText(times);
+    times_->set_text(times);
 }
 
 void JobsPanel::refresh_figures() {
@@ -259,6 +263,8 @@ LightBadge::LightBadge(EngineLink& engine, QWidget* parent) : QWidget(parent), e
     dot_ = new QLabel;
     text_ = new QLabel;
     text_->setObjectName(QStringLiteral("light_state"));
+    // Room for what changes many times a second: a label that grows is cut until the status bar comes to lay itself out.
+    text_->setMinimumWidth(text_->fontMetrics().horizontalAdvance(JobsPanel::tr("Settled, refining %1 %").arg(100)));
     layout->addWidget(dot_);
     layout->addWidget(text_);
     connect(&engine_, &EngineLink::status_changed, this, &LightBadge::refresh);

@@ -13,6 +13,8 @@ class QTreeWidget;
 
 namespace atrium::ui {
 
+class ElidedLabel;
+
 /// State of the light in one word, for the status bar and the panel.
 /// Moving: light follows the hand in a hurry. Settling: the hand let go, and full quality is on its way.
 enum class LightState : std::uint8_t { Empty, Solving, Moving, Settling, Refining, UpToDate, Stale, Stopped, Failed };
@@ -33,9 +35,9 @@ private:
     void refresh_figures();
 
     EngineLink& engine_;
-    QLabel* state_ = nullptr;
-    QLabel* phase_ = nullptr;
-    QLabel* times_ = nullptr;
+    ElidedLabel* state_ = nullptr;
+    ElidedLabel* phase_ = nullptr;
+    ElidedLabel* times_ = nullptr;
     QProgressBar* bar_ = nullptr;
     QPushButton* toggle_ = nullptr;
     QTreeWidget* figures_ = nullptr;

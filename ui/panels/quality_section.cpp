@@ -1,8 +1,10 @@
 #include "ui/panels/quality_section.h"
 
 #include "engine/solver/quality.h"
+#include "ui/panels/automatic_text.h"
 #include "ui/panels/quiet_combo.h"
 
+#include <QLabel>
 #include <QPushButton>
 #include <QToolButton>
 
@@ -11,15 +13,19 @@
 namespace atrium::ui {
 namespace {
 
+// Anything may be typed: what a threshold has no use for is taken as the nearest value that it has (within_range()).
+constexpr double kAny = 1e12;
+
 NumberFormat length_format() {
-    NumberFormat out = NumberFormat::length(0);
+    NumberFormat out = NumberFormat::length(-kAny);
+    out.maximum = kAny;
     out.proportional = true;
     out.step = 0.001;
     return out;
 }
 
 NumberFormat percent_format(int decimals) {
-    NumberFormat out = NumberFormat::plain(0, 10, decimals, QStringLiteral(" %"));
+    NumberFormat out = NumberFormat::plain(-kAny, kAny, decimals, QStringLiteral(" %"));
     out.display_factor = 100.0;
     out.proportional = true;
     out.step = 1e-6;
@@ -27,7 +33,7 @@ NumberFormat percent_format(int decimals) {
 }
 
 NumberFormat count_format(double step) {
-    NumberFormat out = NumberFormat::plain(0, 1e9, 0);
+    NumberFormat out = NumberFormat::plain(-kAny, kAny, 0);
     out.proportional = true;
     out.step = step;
     return out;
@@ -95,7 +101,7 @@ void QualitySection::add_thresholds() {
     add(&T::reflected_rays, tr("Reflection rays"), count_format(1),
         tr("Rays of a first look round for reflected light; where they disagree up to four times as many"));
     add(&T::particles, tr("Particles"), count_format(100), tr("Sent over mirrors and glass at most"));
-    add(&T::caustic_dispersion, tr("Caustic threshold"), NumberFormat::plain(0, 1e3, 2),
+    add(&T::caustic_dispersion, tr("Caustic threshold"), NumberFormat::plain(-kAny, kAny, 2),
         tr("Standard deviations by which light must be more uneven than chance to get a texture; surfaces may have their "
            "own "
            "in the caustic inspector"));
@@ -103,19 +109,53 @@ void QualitySection::add_thresholds() {
 
 void QualitySection::add_threshold(const ThresholdInfo& info, const QString& label, const NumberFormat& format,
                                    const QString& hint) {
-    NumberField* field = add_number(
+    auto owned = std::make_unique<Row>(Row{&info, format, nullptr, nullptr, new QLabel});
+    Row* row = owned.get();
+    rows_.push_back(std::move(owned));
+    row->field = add_number(
         label, format,
         [this, &info] {
             return open() ? std::vector<double>{double(scene().settings.thresholds.*info.value)} : std::vector<double>{};
         },
-        [this, &info](double value) {
+        [this, row](double value) {
             SolverSettings settings = scene().settings;
-            settings.thresholds.*info.value = value > 0.0 ? std::clamp(float(value), info.least, info.most) : 0.0F;
+            settings.thresholds.*row->info->value = within_range(*row, value);
             return SceneEdit{SetSolverSettings{settings}};
         });
-    field->set_hint(hint);
-    fields_.emplace_back(&info, field);
-    formats_.push_back(format);
+    row->automatic = new AutomaticText(row->field, 0.0, hint);
+    row->note->setObjectName(QStringLiteral("%1 note").arg(label));
+    row->note->setWordWrap(true);
+    row->note->setAlignment(Qt::AlignRight);
+    row->note->setVisible(false);
+    add_row(QString(), row->note, [this, row] { return open() && !row->note->text().isEmpty(); });
+    connect(row->field, &QLineEdit::textEdited, this, [this, row] { say(*row, {}); });
+}
+
+float QualitySection::within_range(Row& row, double entered) {
+    if (entered == 0.0) {
+        say(row, {});
+        return 0.0F; // automatic
+    }
+    const ThresholdInfo& info = *row.info;
+    const float used = std::clamp(float(entered), info.least, info.most);
+    QString note;
+    if (used != float(entered)) {
+        const auto text = [&](float value) {
+            return QString::fromStdString(format_number(double(value) * row.format.display_factor, row.format.decimals)) +
+                   row.format.suffix;
+        };
+        note = tr("%1 to %2 are possible: %3 is used").arg(text(info.least), text(info.most), text(used));
+        Q_EMIT message(QStringLiteral("%1: %2").arg(row.field->objectName(), note));
+    }
+    row.noted = used;
+    say(row, note);
+    return used;
+}
+
+void QualitySection::say(Row& row, const QString& note) {
+    row.note->setText(note);
+    row.note->setVisible(open() && !note.isEmpty());
+    row.field->setAccessibleDescription(note); // those who listen are told that it changed
 }
 
 bool QualitySection::open() const { return opener_ != nullptr && opener_->isChecked(); }
@@ -126,6 +166,11 @@ void QualitySection::refresh_more() {
                                            [&](const ThresholdInfo& info) { return set.*info.value > 0.0F; }));
     opener_->setText(by_hand == 0 ? tr("Thresholds: automatic") : tr("Thresholds: %n set by hand", nullptr, by_hand));
     reset_->setEnabled(by_hand > 0);
+    for (const auto& row : rows_) {
+        if (set.*row->info->value != row->noted && !row->note->text().isEmpty()) {
+            say(*row, {}); // undone, or set elsewhere
+        }
+    }
     if (open()) {
         show_automatic();
     }
@@ -140,13 +185,10 @@ void QualitySection::show_automatic() {
         return;
     }
     const SolverThresholds automatic = thresholds_of(quality_settings(scene().settings.quality, diagonal_, 0.0));
-    for (std::size_t i = 0; i < fields_.size(); ++i) {
-        const auto& [info, field] = fields_[i];
-        const NumberFormat& format = formats_[i];
-        const double shown = double(automatic.*info->value) * format.display_factor;
-        const int decimals = shown >= 100 ? 0 : shown >= 1 ? 1 : format.decimals;
-        field->set_absent(0.0,
-                          tr("automatic (%1)").arg(QString::fromStdString(format_number(shown, decimals)) + format.suffix));
+    for (const auto& row : rows_) {
+        const double shown = double(automatic.*row->info->value) * row->format.display_factor;
+        const int decimals = shown >= 100 ? 0 : shown >= 1 ? 1 : row->format.decimals;
+        row->automatic->set_amount(QString::fromStdString(format_number(shown, decimals)) + row->format.suffix);
     }
 }
 

@@ -5,10 +5,13 @@
 #include "engine/scene/solver_thresholds.h"
 #include "ui/panels/section.h"
 
+class QLabel;
 class QPushButton;
 class QToolButton;
 
 namespace atrium::ui {
+
+class AutomaticText;
 
 /// UI thread only. Edits with undo of the scene's settings, saved with it.
 class QualitySection : public Section {
@@ -28,9 +31,21 @@ private:
 
     QToolButton* opener_ = nullptr;
     QPushButton* reset_ = nullptr;
-    std::vector<std::pair<const ThresholdInfo*, NumberField*>> fields_;
-    std::vector<NumberFormat> formats_; ///< of fields_
-    float diagonal_ = 0.0F;             ///< of the scene, metres; as it was when nothing was being dragged
+    /// What became of a number that was entered: one out of range is taken as the nearest inside, and that is said beneath
+    /// the field for as long as it holds.
+    struct Row {
+        const ThresholdInfo* info;
+        NumberFormat format;
+        NumberField* field;
+        AutomaticText* automatic;
+        QLabel* note;
+        float noted = 0.0F; ///< the threshold that note is about
+    };
+    float within_range(Row& row, double entered);
+    void say(Row& row, const QString& note);
+
+    std::vector<std::unique_ptr<Row>> rows_;
+    float diagonal_ = 0.0F; ///< of the scene, metres; as it was when nothing was being dragged
 };
 
 } // namespace atrium::ui
