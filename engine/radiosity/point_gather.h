@@ -5,6 +5,7 @@
 #include "engine/radiosity/direct_light.h"
 #include "engine/radiosity/far_faces.h"
 #include "engine/radiosity/hierarchy.h"
+#include "engine/radiosity/sky_window.h"
 
 namespace atrium {
 
@@ -27,10 +28,11 @@ struct GatherSettings {
 /// Safe from any thread while the hierarchy does not change.
 class PointGather {
 public:
-    /// Without `direct` it gathers from the tree alone, without `far` from every face of a group, however far away.
+    /// Without `direct` it gathers from the tree alone, without `far` from every face of a group, however far away. What
+    /// shines through `slits` is looked for through them: see find_lamp_slits().
     PointGather(const Hierarchy& hierarchy, const RayScene& rays, const DirectLight* direct = nullptr,
-                const FarFaces* far = nullptr)
-        : h_(hierarchy), rays_(rays), direct_(direct), far_(far) {}
+                const FarFaces* far = nullptr, std::span<const SkyWindow> slits = {})
+        : h_(hierarchy), rays_(rays), direct_(direct), far_(far), slits_(slits) {}
 
     /// Irradiance on a small plane at `point` (engine coordinates) with unit `normal`, surfaces, sun, sky and lamps
     /// together.
@@ -47,6 +49,9 @@ private:
     // With `over`, the receiver is its image.
     [[nodiscard]] Visibility visibility(std::uint32_t element, const SurfacePoint& receiver, unsigned count,
                                         const MirrorSight* over) const;
+    [[nodiscard]] std::size_t slit_on_way(const vec3& from, const vec3& direction, float distance) const;
+    [[nodiscard]] Rgb light_from(const vec3& from, const vec3& direction) const;
+    void add_slits(const SurfacePoint& p, DirectSample& out) const;
     void add_surfaces(const SurfacePoint& p, const GatherSettings& settings, const MirrorSight* over,
                       DirectSample& out) const;
 
@@ -54,6 +59,7 @@ private:
     const RayScene& rays_;
     const DirectLight* direct_;
     const FarFaces* far_;
+    std::span<const SkyWindow> slits_;
 };
 
 } // namespace atrium

@@ -151,7 +151,10 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         }
         mark_rooms(s.hierarchy, leaves, around);
     }
-    s.name_emitters(quality.emitter_contrast, quality.maps.cover_reach);
+    s.name_emitters(quality.emitter_contrast, quality.maps.cover_reach, context);
+    if (context.should_stop()) {
+        return stopped();
+    }
 
     for (Feature& feature : statistics.features) {
         if (feature.name == "direct_layer" && feature.used && s.nothing_direct()) {
