@@ -240,11 +240,11 @@ int light_up(Solved& solved, const SolveArguments& arguments, bool need_engine, 
     }
     solved.solution = *result;
     solved.from_file = false;
-    if (solved.solution->statistics.link_budget_reached) {
+    if (const auto lowered = lowered_by_memory(solved.solution->statistics.features); !lowered.empty()) {
         complain(
-            fmt::format("warning: {}: at most {} MiB are to be used, so the light is coarser than its quality stands for. "
-                        "--memory gives it more",
-                        solved.file, memory_budget() >> 20U));
+            fmt::format("warning: {}: at most {} MiB are to be used, so the light is coarser than its quality stands for "
+                        "({}). --memory gives it more",
+                        solved.file, memory_budget() >> 20U, fmt::join(lowered, ", ")));
     }
     solved.stopped = !solved.solution->final;
     if (solved.stopped) {

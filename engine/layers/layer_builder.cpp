@@ -56,6 +56,7 @@ public:
         if (context_.should_stop()) {
             return {};
         }
+        out.limited = added_ >= settings_.max_vertices;
         out.complete = true;
         return out;
     }

@@ -98,6 +98,7 @@ struct LayerSet {
     double error_estimate = 0.0;      ///< area-weighted RMS of the vertices' relative standard errors
     double mean_radiance = 0.0;       ///< log-average of reflected radiance, cd/m2
     std::size_t vertices = 0;
+    bool limited = false;  ///< LayerSettings::max_vertices was reached
     bool complete = false; ///< false when the context asked to stop
     [[nodiscard]] std::size_t memory_bytes() const;
 };

@@ -239,7 +239,7 @@ bool too_near(const Element& e, const vec3& point, float radii) {
 }
 
 PointGather::Visibility PointGather::visibility(std::uint32_t element, const SurfacePoint& receiver, unsigned count,
-                                                const MirrorSight* over) const {
+                                                const MirrorSight* over, bool through_slits) const {
     Visibility out;
     const auto seed = std::uint32_t(hash64(h_.elements[element].path));
     Rgb seen(0.0F);
@@ -275,8 +275,11 @@ PointGather::Visibility PointGather::visibility(std::uint32_t element, const Sur
         // A floor on the distance keeps one near sample from deciding everything.
         const float near2 = std::max(d2, 0.01F * h_.elements[element].area);
         const float weight = cp * cy / (d2 * near2);
-        const Rgb through =
-            over != nullptr ? over->transmittance(y.position) : rays_.transmittance(receiver.position, y.position);
+        const bool by_slit = !through_slits && over == nullptr &&
+                             slit_on_way(receiver.position, d / std::sqrt(d2), std::sqrt(d2)) < slits_.size();
+        const Rgb through = by_slit           ? Rgb(0.0F) // add_slits() has it
+                            : over != nullptr ? over->transmittance(y.position)
+                                              : rays_.transmittance(receiver.position, y.position);
         seen += through * weight;
         out.clear += max_component(through) > 0.0F ? 1.0F : 0.0F;
         total_weight += weight;
@@ -290,18 +293,94 @@ DirectSample PointGather::irradiance(const vec3& point, const vec3& normal, cons
     if (direct_ != nullptr && !direct_->empty()) {
         out = direct_->irradiance(point, normal, settings.sun_rays, settings.sky_rays);
     }
-    add_surfaces({point, normal}, settings, nullptr, out);
+    const SurfacePoint p{point, normal};
+    DirectSample through;
+    add_slits(p, through);
+    if (!(max_component(through.irradiance) > 0.0F)) {
+        add_surfaces(p, settings, nullptr, true, out);
+        return out;
+    }
+    // Where the lamps are seen well enough past the slits these add nothing of note.
+    DirectSample past = out;
+    add_surfaces(p, settings, nullptr, true, past);
+    const float light = luminance(past.irradiance - out.irradiance);
+    if (light * light > past.variance - out.variance) {
+        return past;
+    }
+    out.irradiance += through.irradiance;
+    out.variance += through.variance;
+    add_surfaces(p, settings, nullptr, false, out);
     return out;
 }
 
 DirectSample PointGather::irradiance(const MirrorSight& over, const GatherSettings& settings) const {
     DirectSample out;
-    add_surfaces({over.image(), over.image_normal()}, settings, &over, out);
+    add_surfaces({over.image(), over.image_normal()}, settings, &over, true, out);
     return out;
 }
 
+// The slit that a way belongs to; as many as there are where it crosses none.
+std::size_t PointGather::slit_on_way(const vec3& from, const vec3& direction, float distance) const {
+    std::size_t i = 0;
+    for (; i < slits_.size() && !(slits_[i].crossing(from, direction) < distance); ++i) {
+    }
+    return i;
+}
+
+// Radiosity of the lamps that are seen in a direction.
+Rgb PointGather::light_from(const vec3& from, const vec3& direction) const {
+    constexpr int kMostPanes = 32;
+    Rgb out(0.0F), through(1.0F);
+    vec3 at = from + shadow_offset(from) * direction;
+    for (int i = 0; i < kMostPanes && max_component(through) > 0.0F; ++i) {
+        const Hit hit = rays_.nearest({at, direction});
+        if (!hit) {
+            break;
+        }
+        const std::uint32_t leaf = h_.leaf_at(hit.surface, hit.triangle, !hit.front, hit.barycentric);
+        out += leaf != Element::kNone ? through * h_.elements[leaf].radiosity : Rgb(0.0F);
+        through *= rays_.straight_through(hit, direction);
+        at += (hit.t + shadow_offset(at)) * direction;
+    }
+    return out;
+}
+
+// Light through slits, which the rays spread over lamps would miss: by rays spread over the slits.
+void PointGather::add_slits(const SurfacePoint& p, DirectSample& out) const {
+    constexpr std::uint32_t kRays = 16, kScouts = 8; // of which none sees a lamp: the others would not either
+    for (std::size_t i = 0; i < slits_.size(); ++i) {
+        const float factor = slits_[i].form_factor(p.position, p.normal);
+        if (!(factor > 0.0F)) {
+            continue;
+        }
+        const WindowPoints points(slits_[i], p.position, p.normal);
+        Rgb sum(0.0F);
+        float weights = 0.0F, squares = 0.0F;
+        std::uint32_t k = 0;
+        for (; k < kRays && (k != kScouts || max_component(sum) > 0.0F); ++k) {
+            const WindowPoints::Place place = points.at(sobol_owen2(k, 0, 0x5117U));
+            if (!(place.weight > 0.0F)) {
+                continue;
+            }
+            weights += place.weight;
+            if (slit_on_way(p.position, place.direction, 1.001F * place.distance) < i) {
+                continue; // the other slit's
+            }
+            const Rgb light = light_from(p.position, place.direction);
+            sum += place.weight * light;
+            squares += place.weight * luminance(light) * luminance(light);
+        }
+        if (weights > 0.0F) {
+            const Rgb mean = sum / weights;
+            out.irradiance += factor * mean;
+            out.variance +=
+                factor * factor * std::max(squares / weights - luminance(mean) * luminance(mean), 0.0F) / float(k);
+        }
+    }
+}
+
 void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& settings, const MirrorSight* over,
-                               DirectSample& out) const {
+                               bool through_slits, DirectSample& out) const {
     if (tree_.empty()) {
         return;
     }
@@ -373,7 +452,7 @@ void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& sett
         // Powers of two: the samples are stratified best, and neighbouring points use the very same ones.
         const float wanted = light / unoccluded * float(settings.rays);
         const auto count = unsigned(std::exp2(std::round(std::log2(std::max(wanted, 1.0F)))));
-        const Visibility v = visibility(node.node->element, p, count, over);
+        const Visibility v = visibility(node.node->element, p, count, over, through_slits);
         out.irradiance += node.contribution * v.seen;
         const auto n = float(v.rays);
         if (n > 1.0F && v.clear > 0.0F && v.clear < n) {
@@ -394,7 +473,7 @@ void PointGather::add_surfaces(const SurfacePoint& p, const GatherSettings& sett
             continue;
         }
         const float weight = std::max(light, stride);
-        const Visibility v = visibility(node.node->element, p, 1, over);
+        const Visibility v = visibility(node.node->element, p, 1, over, through_slits);
         sum += node.contribution * (weight / light) * v.seen;
         picked += weight;
         single.add(weight, v.clear);

@@ -6,6 +6,7 @@
 #include "engine/radiosity/far_faces.h"
 #include "engine/radiosity/gather_tree.h"
 #include "engine/radiosity/hierarchy.h"
+#include "engine/radiosity/sky_window.h"
 
 namespace atrium {
 
@@ -28,10 +29,11 @@ struct GatherSettings {
 /// Safe from any thread while the hierarchy does not change; what shines in it is looked up when this is made.
 class PointGather {
 public:
-    /// Without `direct` it gathers from the tree alone, without `far` from every face of a group, however far away.
+    /// Without `direct` it gathers from the tree alone, without `far` from every face of a group, however far away. What
+    /// shines through `slits` is looked for through them: see find_lamp_slits().
     PointGather(const Hierarchy& hierarchy, const RayScene& rays, const DirectLight* direct = nullptr,
-                const FarFaces* far = nullptr)
-        : h_(hierarchy), rays_(rays), direct_(direct), far_(far), tree_(hierarchy) {}
+                const FarFaces* far = nullptr, std::span<const SkyWindow> slits = {})
+        : h_(hierarchy), rays_(rays), direct_(direct), far_(far), tree_(hierarchy), slits_(slits) {}
 
     /// Irradiance on a small plane at `point` (engine coordinates) with unit `normal`, surfaces, sun, sky and lamps
     /// together.
@@ -45,10 +47,14 @@ private:
         float clear = 0.0F; ///< rays that were not blocked
         unsigned rays = 0;
     };
-    // With `over`, the receiver is its image.
+    // With `over`, the receiver is its image. Unless `through_slits`, what crosses a slit counts as blocked: add_slits() has
+    // it.
     [[nodiscard]] Visibility visibility(std::uint32_t element, const SurfacePoint& receiver, unsigned count,
-                                        const MirrorSight* over) const;
-    void add_surfaces(const SurfacePoint& p, const GatherSettings& settings, const MirrorSight* over,
+                                        const MirrorSight* over, bool through_slits) const;
+    [[nodiscard]] std::size_t slit_on_way(const vec3& from, const vec3& direction, float distance) const;
+    [[nodiscard]] Rgb light_from(const vec3& from, const vec3& direction) const;
+    void add_slits(const SurfacePoint& p, DirectSample& out) const;
+    void add_surfaces(const SurfacePoint& p, const GatherSettings& settings, const MirrorSight* over, bool through_slits,
                       DirectSample& out) const;
 
     const Hierarchy& h_;
@@ -56,6 +62,7 @@ private:
     const DirectLight* direct_;
     const FarFaces* far_;
     GatherTree tree_;
+    std::span<const SkyWindow> slits_;
 };
 
 } // namespace atrium

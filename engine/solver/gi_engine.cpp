@@ -18,7 +18,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Times the phases of one solve in order.
+bool limited_by_memory(const CausticLight& light) {
+    return std::any_of(light.records.begin(), light.records.end(),
+                       [](const CausticRecord& r) { return r.sizing == CausticRecord::Sizing::Memory; });
+}
+
 } // namespace
 
 GiEngine::GiEngine() : impl_(std::make_unique<Impl>()) {}
@@ -63,6 +67,8 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         return fail("", "", "stopped before the first picture", "Give it more time, or choose draft quality");
     };
     bool out_of_links = false, out_of_texels = false;
+    LoweredByMemory lowered;
+    std::uint32_t wanted_particles = 0;
     double leaf_error = 0.0; // of what is gathered from leaves, relative to all light
     const auto publish = [&](LayerSet layers, bool final) {
         auto solution = std::make_shared<Solution>();
@@ -90,6 +96,11 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
             phase.share = phase.seconds / std::max(statistics.time.solve, 1e-9);
         }
         s.tell_left_out(statistics.features);
+        const bool any = s.particles && s.particles->emitted() > 0;
+        const bool fewer = any && (s.particles->any_matt() || wanted_particles > s.particles->emitted());
+        tell_lowered(statistics.features,
+                     {lowered.links && out_of_links, lowered.texels && out_of_texels, lowered.vertices && layers.limited,
+                      lowered.particles && fewer, lowered.caustic_texels && limited_by_memory(s.caustics)});
         solution->surfaces = std::move(layers.surfaces);
         solution->caustic_records = s.caustics.records;
         if (options.keep_landings) {
@@ -125,7 +136,8 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
     if (options.particles > 0) {
         quality.particles = options.particles;
     }
-    keep_within(quality, memory_budget(), s.rays->triangle_count());
+    wanted_particles = quality.particles;
+    lowered = keep_within(quality, memory_budget(), s.rays->triangle_count());
     s.field = quality.field;
     s.caustic_settings = quality.caustics;
     s.wishes = caustic_wishes(scene, *s.rays);
@@ -151,7 +163,10 @@ GiEngine::solve(const Scene& scene, const SolveOptions& options, const RunContex
         }
         mark_rooms(s.hierarchy, leaves, around);
     }
-    s.name_emitters(quality.emitter_contrast, quality.maps.cover_reach);
+    s.name_emitters(quality.emitter_contrast, quality.maps.cover_reach, context);
+    if (context.should_stop()) {
+        return stopped();
+    }
 
     for (Feature& feature : statistics.features) {
         if (feature.name == "direct_layer" && feature.used && s.nothing_direct()) {

@@ -10,6 +10,7 @@
 #include "engine/particles/specular_targets.h"
 #include "engine/radiosity/direct_light.h"
 #include "engine/radiosity/indirect_gather.h"
+#include "engine/radiosity/lamp_slits.h"
 #include "engine/radiosity/leaf_exchange.h"
 #include "engine/radiosity/light_shafts.h"
 #include "engine/radiosity/mirror_light.h"
@@ -38,6 +39,7 @@ struct GiEngine::Impl {
     Hierarchy emitters;                   ///< the tree in which only named emitters shine; empty when there are none
     std::unique_ptr<MirrorLight> mirrors; ///< null where there is no flat mirror, and where the paper's ways are asked for
     std::unique_ptr<FarFaces> far_lamps;  ///< of `emitters`
+    std::vector<SkyWindow> slits;         ///< before `emitters`
     std::unique_ptr<PointGather> lamps;   ///< named emitters alone
     std::unique_ptr<PointGather> direct;  ///< named emitters and `punctual` together
     std::unique_ptr<IndirectGather> reflected;
@@ -244,7 +246,7 @@ struct GiEngine::Impl {
 
     // Lamps that stand out leave the hierarchy: what they send is gathered straight from them.
     // The side of a lamp that lies flat on something else shines into the gap between them, where its light ends.
-    void name_emitters(float contrast, float cover_reach) {
+    void name_emitters(float contrast, float cover_reach, const RunContext& context) {
         LeafFlags named = named_emitters(hierarchy, hierarchy.room, contrast);
         LeafFlags shut(named.size(), 0);
         parallel_chunks(named.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -277,8 +279,9 @@ struct GiEngine::Impl {
             }
         }
         far_lamps = std::make_unique<FarFaces>(emitters, *rays);
-        direct = std::make_unique<PointGather>(emitters, *rays, punctual.get(), far_lamps.get());
-        lamps = std::make_unique<PointGather>(emitters, *rays, nullptr, far_lamps.get());
+        slits = find_lamp_slits(*rays, emitters, context);
+        direct = std::make_unique<PointGather>(emitters, *rays, punctual.get(), far_lamps.get(), slits);
+        lamps = std::make_unique<PointGather>(emitters, *rays, nullptr, far_lamps.get(), slits);
     }
 
     // Direct light on every leaf; leaves whose samples disagree are split first, so that sun patches find their place.

@@ -21,7 +21,8 @@ bool GiEngine::Impl::trace_matt_particles(const QualitySettings& quality, std::u
     }
     ParticleScene scene = particle_scene(*punctual);
     scene.detail = matt_detail(leaves);
-    return particles->add_matt(scene, {flags, quality.particles, seed}, context);
+    const auto emitted = std::uint32_t(std::min<std::uint64_t>(particles->emitted(), quality.most_particles));
+    return particles->add_matt(scene, {flags, std::min(quality.particles, quality.most_particles - emitted), seed}, context);
 }
 
 MattDetail GiEngine::Impl::matt_detail(const std::vector<std::uint32_t>& leaves) const {

@@ -35,11 +35,12 @@ struct QualitySettings {
     int refine_rounds = 2;          ///< refinements, each followed by a solve
     double solver_tolerance = 1e-4; ///< relative residual
     int max_iterations = 400;
-    unsigned leaf_rays = 128;          ///< over the hemisphere of every leaf, a power of two
-    int leaf_levels = 4;               ///< rounds of splitting leaves on which reflected light is uneven
-    float leaf_contrast = 0.2F;        ///< what counts as uneven, relative
-    unsigned leaf_samples = 4;         ///< direct-light samples on a leaf
-    std::uint32_t particles = 250'000; ///< emitted at most
+    unsigned leaf_rays = 128;                   ///< over the hemisphere of every leaf, a power of two
+    int leaf_levels = 4;                        ///< rounds of splitting leaves on which reflected light is uneven
+    float leaf_contrast = 0.2F;                 ///< what counts as uneven, relative
+    unsigned leaf_samples = 4;                  ///< direct-light samples on a leaf
+    std::uint32_t particles = 250'000;          ///< emitted at most, by what stands out; by matt surfaces as many again
+    std::uint32_t most_particles = 0xFFFFFFFFU; ///< of both together
     CausticSettings caustics;
 };
 

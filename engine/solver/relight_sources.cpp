@@ -45,7 +45,7 @@ bool GiEngine::Relight::learn(Impl& s, Source& source, const RunContext& context
         }
         tree = only_flagged(s.emitters, flags, false);
     }
-    const PointGather gather(tree, *s.rays);
+    const PointGather gather(tree, *s.rays, nullptr, nullptr, s.slits);
     const auto over = [&](const DirectSample& sample) {
         return DirectSample{per_brightness(sample.irradiance, source.base), 0.0F};
     };

@@ -341,6 +341,16 @@ def grazing(f, degrees):
 
 
 @small
+def near_spot(f):
+    """A spot of 100 cd that shines straight down from a millimetre above a table of 10 m, nearly to its horizon."""
+    f.thing("Table", floor(10, 10), f.material("black", matt(0.0)))
+    s = math.sqrt(0.5)
+    f.light("Spot", "spot", 100.0, translation=[0.0, 0.001, 0.0], rotation=[-s, 0.0, 0.0, s])
+    f.json["extensions"]["KHR_lights_punctual"]["lights"][0]["spot"] = {"innerConeAngle": 1.5703, "outerConeAngle": 1.5707}
+    f.camera(translation=[0.0, 1.0, 4.0])
+
+
+@small
 def leak(f):
     """Rooms that share a wall without thickness; a lamp in one."""
     for name, x in (("Lit room", -2.0), ("Dark room", 2.0)):

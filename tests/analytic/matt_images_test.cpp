@@ -1,6 +1,7 @@
 // Images of matt surfaces: what a lit panel throws through glass and over bent mirrors, against the reference tracer.
 #include "engine/base/parallel.h"
 #include "engine/reference/reference.h"
+#include "engine/solver/memory_budget.h"
 #include "tests/support/followed_room.h"
 #include "tests/support/light_cases.h"
 #include "tests/support/moving_caustics.h"
@@ -134,6 +135,30 @@ TEST(MattImages, PanelThroughABall) {
         const SensorReading in_the_air = s.engine.gather_free({1.5, 0.0, 1.5}, {0, 1, 0});
         EXPECT_NEAR(luminance(in_the_air.irradiance), luminance(truth.points[0].irradiance), 0.08 * brightest);
     }
+}
+
+// The memory for particles is for those of lamps and of matt surfaces together.
+TEST(MattImages, CountInTheMemoryBudget) {
+    PanelOverBall room;
+    test::add_point_light(room.scene, {0.9, 0.43, 1.5}, 60.0); // shines through the ball too
+    constexpr std::size_t kBudget = std::size_t(300) << 20U;
+    QualitySettings most = quality_settings(SolverSettings::Quality::Normal, 4.0F, 0.0);
+    const std::uint32_t wanted = most.particles;
+    EXPECT_TRUE(keep_within(most, kBudget, 4000).particles);
+    EXPECT_LE(most.particles, wanted);
+    const Solved free = test::solve(room.scene);
+    set_memory_budget(kBudget);
+    const Solved bound = test::solve(room.scene);
+    set_memory_budget(0);
+    ASSERT_TRUE(free.solution && bound.solution);
+    const Statistics &a = free.solution->statistics, &b = bound.solution->statistics;
+    EXPECT_GT(a.particles_emitted, most.most_particles) << "or the bound would be none";
+    EXPECT_LE(b.particles_emitted, most.most_particles + 100U) << "but for rounding";
+    EXPECT_GT(b.particles_emitted, most.particles) << "those of matt surfaces have their share";
+    EXPECT_LT(b.memory.particles, a.memory.particles);
+    EXPECT_TRUE(lowered_by_memory(a.features).empty());
+    const std::vector<std::string> lowered = lowered_by_memory(b.features);
+    EXPECT_EQ(std::count(lowered.begin(), lowered.end(), "more_particles"), 1);
 }
 
 // Where nothing matt stands out no particle leaves any.

@@ -18,6 +18,7 @@ TEST(MemoryBudget, TakesNothingFromScenesThatFit) {
     EXPECT_EQ(kept.maps.max_samples, wanted.maps.max_samples);
     EXPECT_EQ(kept.layers.max_vertices, wanted.layers.max_vertices);
     EXPECT_EQ(kept.particles, wanted.particles);
+    EXPECT_GE(kept.most_particles, 2 * kept.particles);
     EXPECT_EQ(kept.caustics.most_texels, wanted.caustics.most_texels);
 }
 
@@ -30,6 +31,8 @@ TEST(MemoryBudget, LessMemoryIsNeverMoreOfAnything) {
         EXPECT_LE(q.maps.max_samples, before.maps.max_samples);
         EXPECT_LE(q.layers.max_vertices, before.layers.max_vertices);
         EXPECT_LE(q.particles, before.particles);
+        EXPECT_LE(q.most_particles, before.most_particles);
+        EXPECT_LE(q.particles, q.most_particles);
         EXPECT_LE(q.caustics.most_texels, before.caustics.most_texels);
         EXPECT_GT(q.maps.max_samples, 0U);
         before = q;
@@ -69,6 +72,13 @@ TEST(MemoryBudget, LightIsCoarserAndSaysSo) {
     ASSERT_TRUE(free.solution && bound.solution);
     EXPECT_FALSE(free.solution->statistics.link_budget_reached);
     EXPECT_TRUE(bound.solution->statistics.link_budget_reached);
+    EXPECT_TRUE(lowered_by_memory(free.solution->statistics.features).empty());
+    const std::vector<std::string> lowered = lowered_by_memory(bound.solution->statistics.features);
+    EXPECT_EQ(std::count(lowered.begin(), lowered.end(), "finer_light_maps"), 1);
+    EXPECT_EQ(std::count(lowered.begin(), lowered.end(), "more_particles"), 0) << "there are none";
+    const auto again = decode_solution(encode_solution(*bound.solution, scene), scene);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(lowered_by_memory((*again)->statistics.features), lowered) << "a project remembers it";
     EXPECT_GT(texels(*free.solution), 300'000U);
     EXPECT_LT(texels(*bound.solution), 250'000U);
     const double mean = mean_irradiance(scene, *free.solution);
