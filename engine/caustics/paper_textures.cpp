@@ -56,7 +56,10 @@ public:
 private:
     // As many texels as the memory for so many textures allows.
     TexelCount within(std::size_t textures) {
-        const double most = std::min(budget_ / double(textures), work_.fullest() / work_.power);
+        double most = budget_ / double(textures);
+        if (work_.power > 0.0) {
+            most = std::min(most, work_.fullest() / work_.power);
+        }
         while (level_ > 0 && std::ldexp(1.0, 2 * level_) > most) {
             --level_;
             work_.record.sizing = CausticRecord::Sizing::Memory;
@@ -86,6 +89,9 @@ private:
         std::stable_sort(boxes.begin(), boxes.end(), [](const CellBox& a, const CellBox& b) { return a.area() > b.area(); });
         boxes.resize(std::min(boxes.size(), kMostBoxes));
         boxes = merge_boxes(std::move(boxes), 0.0, kMostBoxes);
+        if (boxes.empty()) { // dark all over
+            return;
+        }
         const vec2 texel = work_.size() / vec2(float(grid.width), float(grid.height));
         const TexelCount count = within(boxes.size());
         for (const CellBox& box : boxes) {

@@ -1,7 +1,7 @@
 #include "engine/io/edit_script_reader.h"
 
 #include "engine/io/file_access.h"
-#include "engine/io/gltf_json.h"
+#include "engine/io/json_numbers.h"
 
 #include <algorithm>
 #include <array>
@@ -97,8 +97,8 @@ public:
         if (value == nullptr) {
             return {};
         }
-        const double out = value->is_number() ? value->get<double>() : std::numeric_limits<double>::quiet_NaN();
-        if (!(out >= least && out <= most)) {
+        const double out = value->is_number() ? value->get<double>() : kNone;
+        if (out < least || out > most) {
             wrong(key, "is " + shown(*value) + " but must be " + range(least, most));
         }
         return out;
@@ -150,9 +150,8 @@ public:
         const bool fits = list->is_array() && !list->empty() && list->size() <= 3;
         for (std::size_t i = 0; fits && i < list->size(); ++i) {
             const Json& value = (*list)[i];
-            const float length = value.is_number() ? value.get<float>() : 0.0F;
-            if (length > 0.0F && std::isfinite(length)) {
-                out.push_back(length);
+            if (const auto length = gltf::float_of(value); length && *length > 0.0F) {
+                out.push_back(*length);
             }
         }
         if (!fits || out.size() != list->size()) {
@@ -163,6 +162,7 @@ public:
 
 private:
     static constexpr double kHuge = double(std::numeric_limits<float>::max()); // what a scene can hold
+    static constexpr double kNone = std::numeric_limits<double>::infinity();   // of what is no number: in no range
 
     static std::string range(double least, double most) {
         if (most >= kHuge) {
@@ -179,7 +179,7 @@ private:
         bool good = value->is_array() && value->size() == N;
         for (std::size_t i = 0; good && i < N; ++i) {
             const Json& component = (*value)[i];
-            out[i] = component.is_number() ? component.get<double>() : std::numeric_limits<double>::quiet_NaN();
+            out[i] = component.is_number() ? component.get<double>() : kNone;
             good = out[i] >= least && out[i] <= most;
         }
         if (!good) {
@@ -380,7 +380,7 @@ EditScript read_all(const Json& root) {
 
 Result<EditScript> parse_edit_script(const std::string& text, const std::string& file) {
     try {
-        EditScript script = read_all(Json::parse(text));
+        EditScript script = read_all(gltf::parse_json(text));
         script.file = file;
         return script;
     } catch (const Json::exception& e) {

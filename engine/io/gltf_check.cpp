@@ -1,6 +1,7 @@
 #include "engine/io/gltf_check.h"
 
 #include "engine/io/gltf_extensions.h"
+#include "engine/io/json_numbers.h"
 
 #include <algorithm>
 
@@ -290,7 +291,7 @@ void check_meshes(const Json& root) {
         }
         if (const Json* weights = find_array(meshes[i], "weights", where)) {
             for (const Json& weight : *weights) {
-                if (!weight.is_number() || !std::isfinite(weight.get<float>())) {
+                if (!float_of(weight)) {
                     refuse(where + "/weights", "holds something that is not a usable number");
                 }
             }

@@ -1,5 +1,7 @@
 #include "engine/io/gltf_container.h"
 
+#include "engine/io/json_numbers.h"
+
 #include <cstring>
 
 namespace atrium::gltf {
@@ -32,7 +34,7 @@ Json parse(std::string_view json, Container& container) {
     }
     check_depth(json);
     try {
-        Json root = Json::parse(json);
+        Json root = parse_json(json);
         if (!root.is_object()) {
             refuse("", "is not a glTF file: the JSON text is not an object");
         }

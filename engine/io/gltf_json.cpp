@@ -1,5 +1,7 @@
 #include "engine/io/gltf_json.h"
 
+#include "engine/io/json_numbers.h"
+
 #include <charconv>
 
 namespace atrium::gltf {
@@ -63,12 +65,11 @@ double number(const Json& object, const char* key, double fallback, const std::s
     if (!value->is_number()) {
         refuse(where, std::string("\"") + key + "\" is not a number");
     }
-    const double out = value->get<double>();
     // Everything is stored as float in the end: beyond its range a number would become infinite there.
-    if (!(std::abs(out) <= double(std::numeric_limits<float>::max()))) {
+    if (!float_of(*value)) {
         refuse(where, std::string("\"") + key + "\" is too large a number");
     }
-    return out;
+    return value->get<double>();
 }
 
 vec3 number3(const Json& object, const char* key, const vec3& fallback, const std::string& where) {
@@ -81,11 +82,11 @@ vec3 number3(const Json& object, const char* key, const vec3& fallback, const st
     }
     vec3 out;
     for (int i = 0; i < 3; ++i) {
-        const Json& component = (*value)[std::size_t(i)];
-        if (!component.is_number() || !std::isfinite(component.get<float>())) {
+        const auto component = float_of((*value)[std::size_t(i)]);
+        if (!component) {
             refuse(where, std::string("\"") + key + "\" is not an array of three finite numbers");
         }
-        out[i] = component.get<float>();
+        out[i] = *component;
     }
     return out;
 }

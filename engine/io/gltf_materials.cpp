@@ -1,6 +1,7 @@
 // glTF materials with their KHR extensions -> Material. What we do not interpret is kept as text for saving.
 #include "engine/io/gltf_extensions.h"
 #include "engine/io/gltf_read_context.h"
+#include "engine/io/json_numbers.h"
 #include "engine/scene/light_limits.h"
 
 #include <fmt/format.h>
@@ -21,11 +22,12 @@ TextureRef read_texture_ref(ReadContext& context, const Json& info, const std::s
             if (value->size() != 2 || !(*value)[0].is_number() || !(*value)[1].is_number()) {
                 refuse(where + "/" + key, "is not an array of two numbers");
             }
-            const vec2 out((*value)[0].get<float>(), (*value)[1].get<float>());
-            if (!is_finite(out)) {
+            const auto x = float_of((*value)[0]);
+            const auto y = float_of((*value)[1]);
+            if (!x || !y) {
                 refuse(where + "/" + key, "holds a number that is too large");
             }
-            return out;
+            return vec2(*x, *y);
         };
         ref.offset = pair("offset", vec2(0.0F));
         ref.scale = pair("scale", vec2(1.0F));
@@ -79,19 +81,19 @@ void read_base(ReadContext& context, const Json& json, Material& material, const
         if (color->size() != 4) {
             refuse(where + "/baseColorFactor", "has " + std::to_string(color->size()) + " numbers, not 4");
         }
-        float worst = 0.0F;
-        float instead = 0.0F;
+        double worst = 0.0;
+        double instead = 0.0;
         for (std::size_t i = 0; i < 4; ++i) {
             if (!(*color)[i].is_number()) {
                 refuse(where + "/baseColorFactor", "holds something that is not a number");
             }
-            const float value = (*color)[i].get<float>();
-            const float good = std::fmin(std::fmax(value, 0.0F), 1.0F);
+            const auto value = (*color)[i].get<double>();
+            const double good = std::clamp(value, 0.0, 1.0);
             if (std::abs(good - value) > std::abs(instead - worst)) {
                 worst = value;
                 instead = good;
             }
-            (i < 3 ? material.base_color[int(i)] : material.alpha) = good;
+            (i < 3 ? material.base_color[int(i)] : material.alpha) = float(good);
         }
         if (worst != instead) { // once, whatever the number of channels
             context.warn(where, fmt::format("a base colour of {} was set to {}", worst, instead),

@@ -1,5 +1,6 @@
 #include "engine/io/gltf_resources.h"
 
+#include "engine/base/float_traps.h"
 #include "engine/io/file_access.h"
 
 #include <charconv>
@@ -209,6 +210,7 @@ std::shared_ptr<const tinygltf::Model> parse_model(const Json& root, BufferList 
     auto model = std::make_shared<tinygltf::Model>();
     std::string error;
     std::string warning;
+    const FloatTrapsOff library;
     if (!loader.LoadASCIIFromString(model.get(), &error, &warning, json.data(), unsigned(json.size()), "")) {
         while (!error.empty() && (error.back() == '\n' || error.back() == ' ')) {
             error.pop_back();

@@ -2,6 +2,7 @@
 
 #include "engine/io/gltf_check.h"
 #include "engine/io/gltf_extensions.h"
+#include "engine/io/json_numbers.h"
 
 #include <fmt/format.h>
 
@@ -64,7 +65,7 @@ Json parse_what_is_sound(std::string_view bytes, bool& whole) {
     for (int cut = 0; cut < kMaxCuts && !text.empty(); ++cut) {
         check_depth(text);
         try {
-            Json root = Json::parse(text);
+            Json root = parse_json(text);
             if (root.is_object()) {
                 return root;
             }

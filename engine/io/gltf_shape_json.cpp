@@ -1,5 +1,7 @@
 #include "engine/io/gltf_shape_json.h"
 
+#include "engine/io/json_numbers.h"
+
 namespace atrium::gltf {
 namespace {
 
@@ -18,11 +20,12 @@ std::vector<vec2> ring_from_json(const Json& json) {
         refuse("", "a ring is not a list of coordinate pairs");
     }
     for (std::size_t i = 0; i < json.size(); i += 2) {
-        const vec2 p(json[i].get<float>(), json[i + 1].get<float>());
-        if (!is_finite(p)) {
-            refuse("", "a coordinate is too large");
+        const auto x = float_of(json[i]);
+        const auto y = float_of(json[i + 1]);
+        if (!x || !y) {
+            refuse("", "a coordinate is no number, or too large");
         }
-        out.push_back(p);
+        out.emplace_back(*x, *y);
     }
     return out;
 }

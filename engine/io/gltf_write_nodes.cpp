@@ -3,6 +3,8 @@
 #include "engine/io/gltf_write_context.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 
 namespace atrium::gltf {
@@ -91,8 +93,10 @@ Json camera_json(const Camera& camera) {
 
 bool is_finite_transform(const Transform& t) {
     const dquat& q = t.rotation;
+    const std::array numbers{
+        t.translation.x, t.translation.y, t.translation.z, t.scale.x, t.scale.y, t.scale.z, q.x, q.y, q.z, q.w};
     // The reader's bound: lengths and areas must stay finite.
-    return glm::length(t.translation) < 1e30 && glm::length(t.scale) < 1e30 && std::isfinite(q.x + q.y + q.z + q.w) &&
+    return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x) && std::abs(x) < 1e30; }) &&
            glm::dot(q, q) > 0.0;
 }
 

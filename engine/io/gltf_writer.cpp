@@ -1,4 +1,5 @@
 // write_scene(): the document is built in memory (gltf_write_materials, _meshes, _nodes), then written atomically.
+#include "engine/base/float_traps.h"
 #include "engine/io/file_access.h"
 #include "engine/io/gltf_container.h"
 #include "engine/io/gltf_extensions.h"
@@ -43,6 +44,7 @@ void put_text(Json& object, const char* key, const std::string& json_text) {
     if (json_text.empty()) {
         return;
     }
+    const FloatTrapsOff library; // as in parse_json()
     Json value = Json::parse(json_text, nullptr, false);
     // Text that is no JSON was typed by someone: it is kept as a JSON string.
     object[key] = value.is_discarded() ? Json(json_text) : std::move(value);

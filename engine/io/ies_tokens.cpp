@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace atrium::ies {
 namespace {
@@ -129,7 +130,8 @@ double Tokens::number(const char* what) {
     const std::string_view digits = word.front() == '+' ? word.substr(1) : word;
     double value = 0.0;
     const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (parsed.ec != std::errc{} || parsed.ptr != digits.data() + digits.size() || !std::isfinite(value)) {
+    if (parsed.ec != std::errc{} || parsed.ptr != digits.data() + digits.size() || !std::isfinite(value) ||
+        std::abs(value) > double(std::numeric_limits<float>::max())) {
         throw Fault{line_, "\"" + to_utf8(word.substr(0, 24)) + "\" stands where " + what + " should, and is no number",
                     "The file is damaged, or no LM-63 file; get it again from the maker."};
     }

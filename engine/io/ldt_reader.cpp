@@ -177,7 +177,11 @@ void LdtReader::read_intensities() {
         throw Fault{6, fmt::format("it announces {} intensities, more than the file holds", count), kDamaged};
     }
     for (std::size_t i = 0; i < count; ++i) {
-        candela_.push_back(number("an intensity") * factor_ * lumens_ / 1000.0);
+        const double value = number("an intensity") * factor_ * lumens_ / 1000.0;
+        if (!(std::abs(value) < 1e30)) {
+            throw Fault{lines_.line_number(), fmt::format("an intensity of {} candela is no lamp's", value), kDamaged};
+        }
+        candela_.push_back(value);
     }
 }
 

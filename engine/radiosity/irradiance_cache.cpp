@@ -4,6 +4,7 @@
 #include "engine/base/rng.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace atrium {
@@ -19,6 +20,14 @@ constexpr int kMostRounds = 4; // of looking where interpolation is off
 Cell cell_of(const vec3& p, float size) {
     return {std::int32_t(std::floor(p.x / size)), std::int32_t(std::floor(p.y / size)),
             std::int32_t(std::floor(p.z / size))};
+}
+
+// A share of no light is none, or without bound.
+float share(float part, float whole) {
+    if (whole > 0.0F) {
+        return part / whole;
+    }
+    return part > 0.0F ? std::numeric_limits<float>::infinity() : 0.0F;
 }
 
 } // namespace
@@ -280,10 +289,9 @@ void IrradianceCache::fit_gradients(std::size_t first, const RunContext& context
             const double damping = 0.05 * (uu + vv);
             uu += damping;
             vv += damping;
-            const double det = uu * vv - uv * uv;
-            if (det > 0.0) {
-                gradient[i] = {(ue * float(vv) - ve * float(uv)) / float(det),
-                               (ve * float(uu) - ue * float(uv)) / float(det)};
+            const auto det = float(uu * vv - uv * uv);
+            if (det > 0.0F) {
+                gradient[i] = {(ue * float(vv) - ve * float(uv)) / det, (ve * float(uu) - ue * float(uv)) / det};
             }
         }
     });
@@ -302,7 +310,7 @@ void IrradianceCache::fit_gradients(std::size_t first, const RunContext& context
             }
             if (weights > 0.0F) {
                 const float own = luminance(r.irradiance);
-                error_[i] = std::abs(luminance(sum) / weights - own) / std::max(own, settings_.light_floor);
+                error_[i] = share(std::abs(luminance(sum) / weights - own), std::max(own, settings_.light_floor));
             }
         }
     });
@@ -313,8 +321,8 @@ IrradianceCache::Cells IrradianceCache::shorten() {
     for (std::uint32_t i = 0; i < records_.size(); ++i) {
         float& reach = places_[i].reach;
         // Between records the error is smaller than at one that is left out: about half. What chance explains is none.
-        const float noise =
-            3.0F * std::sqrt(records_[i].variance) / std::max(luminance(records_[i].irradiance), settings_.light_floor);
+        const float noise = share(3.0F * std::sqrt(records_[i].variance),
+                                  std::max(luminance(records_[i].irradiance), settings_.light_floor));
         if (error_[i] > std::max(2.0F * settings_.contrast, noise) && reach > settings_.smallest_reach) {
             insert(i, before);
             reach = std::max(0.6F * reach, settings_.smallest_reach); // its cells hold it still, and some more around

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace atrium {
 namespace {
@@ -84,7 +85,7 @@ bool read_light_map(ByteReader& in, LightMap& map) {
             return false;
         }
     }
-    const float scale = std::ldexp(1.0F, exponent);
+    const double scale = std::ldexp(1.0, exponent);
     map.image.resize(count);
     std::vector<std::uint16_t> green(count);
     Channel channel(count);
@@ -97,11 +98,14 @@ bool read_light_map(ByteReader& in, LightMap& map) {
                 if (c == 1) {
                     green[i] = bits;
                 }
-                const float value = float_from_half(bits) * scale;
-                if (!half_is_finite(bits) || !std::isfinite(value)) {
+                if (!half_is_finite(bits)) {
                     return false;
                 }
-                map.image[i][c] = value;
+                const double value = double(float_from_half(bits)) * scale;
+                if (std::abs(value) > double(std::numeric_limits<float>::max())) {
+                    return false;
+                }
+                map.image[i][c] = float(value);
             }
         }
     }

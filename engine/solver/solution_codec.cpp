@@ -1,5 +1,6 @@
 // Layers and statistics as bytes for the project file: a fixed header, a JSON part, arrays as byte planes, light maps as
 // residuals of halves; all zstd-compressed.
+#include "engine/base/float_traps.h"
 #include "engine/solver/light_map_codec.h"
 #include "engine/solver/solution.h"
 
@@ -106,6 +107,10 @@ Statistics statistics_from(const nlohmann::json& j) {
     return s;
 }
 
+bool on_chart(const vec2& uv) {
+    return is_finite(uv) && std::abs(uv.x) <= kLargestChartCoordinate && std::abs(uv.y) <= kLargestChartCoordinate;
+}
+
 // Light may be any finite number; geometry must be finite and indices in range, or the file is damaged.
 bool plausible(const SurfaceLayer& layer) {
     const DisplayMesh& mesh = *layer.mesh;
@@ -130,9 +135,7 @@ bool plausible(const SurfaceLayer& layer) {
             }
         }
     }
-    return std::all_of(mesh.light_uv.begin(), mesh.light_uv.end(), [](const vec2& uv) {
-        return std::abs(uv.x) <= kLargestChartCoordinate && std::abs(uv.y) <= kLargestChartCoordinate; // not NaN either
-    });
+    return std::all_of(mesh.light_uv.begin(), mesh.light_uv.end(), on_chart);
 }
 
 // Vertices of neighbouring triangles have neighbouring numbers: what is stored is the step from one to the next.
@@ -193,11 +196,8 @@ void write_textures(ByteWriter& out, const std::vector<std::shared_ptr<const Cau
 }
 // A texture that was read can be evaluated anywhere.
 bool plausible(const CausticTexture& t) {
-    const auto place = [](const vec2& uv) {
-        return std::abs(uv.x) <= kLargestChartCoordinate && std::abs(uv.y) <= kLargestChartCoordinate; // not NaN either
-    };
-    return t.width > 0 && t.height > 0 && t.image.size() == std::uint64_t(t.width) * t.height && place(t.low) &&
-           place(t.high) && t.low.x < t.high.x && t.low.y < t.high.y &&
+    return t.width > 0 && t.height > 0 && t.image.size() == std::uint64_t(t.width) * t.height && on_chart(t.low) &&
+           on_chart(t.high) && t.low.x < t.high.x && t.low.y < t.high.y &&
            std::all_of(t.image.begin(), t.image.end(), [](const Rgb& e) { return is_finite(e); });
 }
 bool read_textures(ByteReader& in, std::vector<std::shared_ptr<const CausticTexture>>& out) {
@@ -367,6 +367,7 @@ Result<std::shared_ptr<const Solution>> decode_solution(std::span<const std::byt
         return damaged();
     }
     try {
+        const FloatTrapsOff library; // which tells by an infinity that a number is too large
         solution->statistics = statistics_from(nlohmann::json::parse(text));
     } catch (const nlohmann::json::exception&) {
         return damaged();

@@ -1,4 +1,5 @@
 // Mirrors, metals and glass at a point against the numbers of shared/validation and against what energy allows.
+#include "engine/base/float_traps.h"
 #include "engine/optics/ggx.h"
 #include "engine/optics/specular.h"
 #include "engine/raycast/ray_scene.h"
@@ -175,6 +176,7 @@ TEST(SpecularCases, BeerLambert) {
     m.attenuation_distance = 0.0F;
     EXPECT_EQ(absorption(m, 2.0F), Rgb(0.0F, 1.0F, 0.0F));
     EXPECT_EQ(absorption(m, std::numeric_limits<float>::infinity()), Rgb(0.0F, 1.0F, 0.0F));
+    const FloatTrapsOff no_number_on_purpose;
     EXPECT_EQ(absorption(m, std::numeric_limits<float>::quiet_NaN()), Rgb(1.0F));
 }
 
@@ -401,6 +403,7 @@ TEST(SpecularCases, NothingIsGainedLeaksOrBreaks) {
             }
             EXPECT_LE(sum / kSamples, 1.0 + 1e-5) << m.roughness << " " << m.thickness << " " << c;
         }
+        const FloatTrapsOff no_numbers_on_purpose;
         const float nan = std::numeric_limits<float>::quiet_NaN();
         for (const vec3& in : {vec3(1, 0, 0), vec3(0, 0, 1), vec3(0.0F), vec3(nan), vec3(0, 0, -1)}) {
             for (const vec3& n : {vec3(0, 0, 1), vec3(0.0F), vec3(nan), vec3(0, 0, -1)}) {

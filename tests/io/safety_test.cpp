@@ -2,7 +2,9 @@
 #include "engine/io/file_access.h"
 #include "tests/io/io_test_support.h"
 
+#include <array>
 #include <csignal>
+#include <limits>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -127,14 +129,21 @@ TEST(Saving, links_and_modes_are_kept) {
 }
 
 TEST(Saving, a_placement_that_is_not_finite_is_refused_by_name) {
-    Scene scene;
-    Node node = node_named("Chair");
-    node.transform.translation.x = std::numeric_limits<double>::quiet_NaN();
-    scene.roots = {scene.nodes.insert(node)};
-    const TemporaryFolder folder;
-    const auto written = write_scene(folder / "scene.glb", scene);
-    ASSERT_FALSE(written);
-    EXPECT_NE(written.error().message().find("Chair"), std::string::npos);
+    std::array<Transform, 4> placements{};
+    placements[0].translation.x = std::numeric_limits<double>::quiet_NaN();
+    placements[1].translation.y = 1e200; // its square is not
+    placements[2].scale.z = -std::numeric_limits<double>::infinity();
+    placements[3].rotation.x = 1e200;
+    for (const Transform& placement : placements) {
+        Scene scene;
+        Node node = node_named("Chair");
+        node.transform = placement;
+        scene.roots = {scene.nodes.insert(node)};
+        const TemporaryFolder folder;
+        const auto written = write_scene(folder / "scene.glb", scene);
+        ASSERT_FALSE(written);
+        EXPECT_NE(written.error().message().find("Chair"), std::string::npos);
+    }
 }
 
 TEST(Base64, rejects_what_is_not) {

@@ -9,7 +9,8 @@
 
 namespace atrium::test {
 
-/// One planar chart per surface, u along its node's own x (in the plane of polygons), with tiles from its least corner on.
+/// One planar chart per surface, in the plane of its first triangle, with tiles from its least corner on: u along its node's
+/// own x (which is in the plane of polygons), or along y where x stands upright on the plane.
 inline std::vector<SurfaceCharts> flat_charts(const RayScene& rays, float tile_edge = 0.32F) {
     std::vector<SurfaceCharts> out;
     for (std::uint32_t s = 0; s < rays.surfaces().size(); ++s) {
@@ -18,7 +19,11 @@ inline std::vector<SurfaceCharts> flat_charts(const RayScene& rays, float tile_e
         Chart chart;
         const auto first = rays.triangle(s, 0);
         chart.normal = glm::normalize(glm::cross(first[1] - first[0], first[2] - first[0]));
-        const vec3 x(glm::normalize(dvec3(rays.surfaces()[s].to_engine[0])));
+        const dmat4& to_engine = rays.surfaces()[s].to_engine;
+        vec3 x(glm::normalize(dvec3(to_engine[0])));
+        if (std::abs(glm::dot(x, chart.normal)) > 0.99F) {
+            x = vec3(glm::normalize(dvec3(to_engine[1])));
+        }
         chart.axis_u = glm::normalize(x - chart.normal * glm::dot(x, chart.normal));
         chart.axis_v = glm::cross(chart.normal, chart.axis_u);
         chart.scale = vec2(tile_edge);

@@ -1,4 +1,4 @@
-// ATRIUM_FLOAT_TRAPS=1 runs the engine's tests with floating-point traps: see engine/base/float_traps.h.
+// The engine's tests run with floating-point traps (engine/base/float_traps.h), but for ATRIUM_FLOAT_TRAPS=0.
 #include "engine/base/float_traps.h"
 
 #include <cstdlib>
@@ -8,7 +8,7 @@ namespace {
 // Before main(), so that no thread is there yet.
 [[maybe_unused]] const bool traps_on = [] {
     const char* wanted = std::getenv("ATRIUM_FLOAT_TRAPS");
-    const bool on = wanted != nullptr && std::string_view(wanted) == "1";
+    const bool on = wanted == nullptr || std::string_view(wanted) != "0";
     if (on) {
         atrium::turn_on_float_traps();
     }
