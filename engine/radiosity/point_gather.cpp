@@ -274,7 +274,7 @@ PointGather::Visibility PointGather::visibility(std::uint32_t element, const Sur
         ++out.rays;
         // A floor on the distance keeps one near sample from deciding everything.
         const float near2 = std::max(d2, 0.01F * h_.elements[element].area);
-        const float weight = cp * cy / (d2 * near2);
+        const float weight = cp * cy / d2 / near2; // d2 alone may be tiny, and the product nothing
         const bool by_slit = !through_slits && over == nullptr &&
                              slit_on_way(receiver.position, d / std::sqrt(d2), std::sqrt(d2)) < slits_.size();
         const Rgb through = by_slit           ? Rgb(0.0F) // add_slits() has it
