@@ -1677,6 +1677,30 @@
         <source>Save as .gltf.</source>
         <translation>Enregistrez en .gltf.</translation>
     </message>
+    <message>
+        <source>more_links</source>
+        <translation>plus de liens</translation>
+    </message>
+    <message>
+        <source>finer_light_maps</source>
+        <translation>cartes de lumière plus fines</translation>
+    </message>
+    <message>
+        <source>more_vertices</source>
+        <translation>plus de sommets</translation>
+    </message>
+    <message>
+        <source>more_particles</source>
+        <translation>plus de particules</translation>
+    </message>
+    <message>
+        <source>finer_caustic_textures</source>
+        <translation>textures de caustiques plus fines</translation>
+    </message>
+    <message>
+        <source>The light may take %1 MiB of memory.</source>
+        <translation>La lumière peut prendre %1 Mio de mémoire.</translation>
+    </message>
 </context>
 <context>
     <name>Help</name>
@@ -4174,6 +4198,17 @@ Vérifiez que le nom du fichier est correct.</translation>
         <source>Getting ready to follow edits: %1</source>
         <translation>Se prépare à suivre les modifications : %1</translation>
     </message>
+    <message>
+        <source>The light is coarser than its quality asks for, to stay within the memory that it may take. Left out: %1.
+Edit &gt; Preferences gives it more.</source>
+        <translation>La lumière est plus grossière que sa qualité ne le demande, pour rester dans la mémoire qu&apos;elle peut prendre. Laissé de côté : %1.
+Édition &gt; Préférences lui en donne plus.</translation>
+    </message>
+    <message>
+        <source>, </source>
+        <comment>between items of a list</comment>
+        <translation>, </translation>
+    </message>
 </context>
 <context>
     <name>atrium::ui::LibraryModel</name>
@@ -4970,6 +5005,18 @@ Vérifiez que le nom du fichier est correct.</translation>
         <source>&amp;Colours:</source>
         <translation>&amp;Couleurs :</translation>
     </message>
+    <message>
+        <source>Light that would take more gets coarser. The Light panel says so.</source>
+        <translation>La lumière qui en prendrait plus devient plus grossière. Le panneau Lumière le dit.</translation>
+    </message>
+    <message>
+        <source>Half of this computer&apos;s (%1)</source>
+        <translation>La moitié de celle de cet ordinateur (%1)</translation>
+    </message>
+    <message>
+        <source>&amp;Memory for light:</source>
+        <translation>&amp;Mémoire pour la lumière :</translation>
+    </message>
 </context>
 <context>
     <name>atrium::ui::ProblemsPanel</name>
@@ -4988,6 +5035,10 @@ Vérifiez que le nom du fichier est correct.</translation>
     <message>
         <source>No problems found</source>
         <translation>Aucun problème trouvé</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Lumière</translation>
     </message>
 </context>
 <context>

@@ -1,6 +1,9 @@
 // The wish for quality and its thresholds in the Light panel.
+#include "engine/solver/memory_budget.h"
 #include "ui/panels/automatic_text.h"
 #include "ui/panels/elided_label.h"
+#include "ui/panels/jobs_panel.h"
+#include "ui/panels/problems_panel.h"
 #include "window_fixture.h"
 
 #include <QComboBox>
@@ -16,6 +19,37 @@ class QualityTest : public WindowTest {
 protected:
     [[nodiscard]] const SolverSettings& settings() { return scene().settings; }
 };
+
+// The least of everything is more than the sample needs, so what the engine would tell is put into its statistics.
+TEST_F(QualityTest, WhatMemoryMadeCoarserIsAmongTheProblems) {
+    Statistics statistics;
+    EXPECT_TRUE(lowered_by_memory_text(statistics).isEmpty());
+    tell_lowered(statistics.features, {.texels = true, .particles = true});
+    const QString text = lowered_by_memory_text(statistics);
+    EXPECT_TRUE(text.contains(QStringLiteral("finer light maps, more particles"))) << text.toStdString();
+    open_sample();
+    auto* problems = window->findChild<ProblemsPanel*>();
+    ASSERT_NE(problems, nullptr);
+    int warnings = -1;
+    QObject::connect(problems, &ProblemsPanel::count_changed, problems, [&](int, int count) { warnings = count; });
+    const auto told = [&] {
+        int rows = 0;
+        for (int i = 0; i < problems->topLevelItemCount(); ++i) {
+            rows += problems->topLevelItem(i)->text(1) == text ? 1 : 0;
+        }
+        return rows;
+    };
+    ASSERT_TRUE(QTest::qWaitFor([&] { return warnings >= 0; }));
+    const int before = warnings;
+    problems->set_light_warning(text);
+    EXPECT_EQ(told(), 1);
+    EXPECT_EQ(warnings, before + 1);
+    trigger(ActionId::AddBox); // the scene is looked at again
+    ASSERT_TRUE(QTest::qWaitFor([&] { return warnings == before + 1 && told() == 1; }));
+    problems->set_light_warning({});
+    EXPECT_EQ(told(), 0);
+    EXPECT_EQ(warnings, before);
+}
 
 TEST_F(QualityTest, ThresholdsAreToldAndSetByHandWithUndo) {
     open_sample();

@@ -1,5 +1,6 @@
 // The other language: compiled into the program, found by the contexts that the program uses, chosen by taste or by the
 // system.
+#include "engine/solver/memory_budget.h"
 #include "ui/document/library.h"
 #include "ui/window/preferences_dialog.h"
 #include "ui/window/settings.h"
@@ -64,7 +65,11 @@ TEST_F(WindowTest, PreferencesAreKept) {
     ASSERT_NE(preferences, nullptr);
     auto* language = preferences->findChild<QComboBox*>(QStringLiteral("language"));
     auto* autosave = preferences->findChild<QComboBox*>(QStringLiteral("autosave"));
-    ASSERT_TRUE(language != nullptr && autosave != nullptr);
+    auto* memory = preferences->findChild<QComboBox*>(QStringLiteral("memory"));
+    ASSERT_TRUE(language != nullptr && autosave != nullptr && memory != nullptr);
+    EXPECT_EQ(memory->currentData().toInt(), 0) << "half of the machine's";
+    EXPECT_EQ(memory_budget(), default_memory_budget());
+    memory->setCurrentIndex(memory->findData(256));
     EXPECT_TRUE(language->currentData().toString().isEmpty());
     EXPECT_EQ(autosave->currentData().toInt(), 30);
     language->setCurrentIndex(language->findData(QStringLiteral("fr")));
@@ -88,6 +93,10 @@ TEST_F(WindowTest, PreferencesAreKept) {
     EXPECT_EQ(Settings().language(), QStringLiteral("fr"));
     EXPECT_EQ(Settings().autosave_seconds(), 60);
     EXPECT_EQ(Settings().appearance(), Appearance::Dark);
+    EXPECT_EQ(Settings().memory_mib(), 256);
+    EXPECT_EQ(memory_budget(), std::size_t(256) << 20U) << "for the light that comes next";
+    set_memory_budget(0);
+    Settings().set_memory_mib(0);
     EXPECT_LT(window->palette().color(QPalette::Window).lightness(), 80) << "at once";
     EXPECT_GT(light_window, 160);
     EXPECT_GT(icon_of_open(), 160) << "icons are seen on the dark";

@@ -1,5 +1,6 @@
 #include "ui/panels/jobs_panel.h"
 
+#include "engine/solver/memory_budget.h"
 #include "ui/document/engine_text.h"
 #include "ui/panels/elided_label.h"
 #include "ui/panels/number_parse.h"
@@ -55,6 +56,8 @@ QString phase_text(const std::string& phase) {
     return QString::fromStdString(phase);
 }
 
+QString feature_text(const std::string& name) { return engine_text(name).replace(QLatin1Char('_'), QLatin1Char(' ')); }
+
 QColor state_color(LightState state) {
     // Told apart by lightness too, and never without the word beside it.
     switch (state) {
@@ -72,6 +75,18 @@ QColor state_color(LightState state) {
 }
 
 } // namespace
+
+QString lowered_by_memory_text(const Statistics& statistics) {
+    QStringList names;
+    for (const std::string& name : lowered_by_memory(statistics.features)) {
+        names.append(feature_text(name));
+    }
+    return names.isEmpty()
+               ? QString()
+               : JobsPanel::tr("The light is coarser than its quality asks for, to stay within the memory that it "
+                               "may take. Left out: %1.\nEdit > Preferences gives it more.")
+                     .arg(names.join(JobsPanel::tr(", ", "between items of a list")));
+}
 
 LightState light_state(const EngineLink& engine) {
     const SessionStatus status = engine.status();
@@ -246,8 +261,7 @@ void JobsPanel::refresh_figures() {
     auto* left_out = row(tr("Left out"), QString());
     auto* used = row(tr("In use"), QString());
     for (const Feature& feature : s.features) {
-        auto* item = new QTreeWidgetItem(
-            {engine_text(feature.name).replace(QLatin1Char('_'), QLatin1Char(' ')), engine_text(feature.why)});
+        auto* item = new QTreeWidgetItem({feature_text(feature.name), engine_text(feature.why)});
         item->setToolTip(1, item->text(1));
         (feature.used ? used : left_out)->addChild(item);
     }

@@ -20,6 +20,8 @@ class ElidedLabel;
 enum class LightState : std::uint8_t { Empty, Solving, Moving, Settling, Refining, UpToDate, Stale, Stopped, Failed };
 LightState light_state(const EngineLink& engine);
 QString light_state_text(const EngineLink& engine); ///< "Solving 45 %", "Up to date", ...
+/// What the memory that light may take made coarser; empty = nothing.
+QString lowered_by_memory_text(const Statistics& statistics);
 
 /// UI thread only.
 class JobsPanel : public QWidget {

@@ -64,7 +64,15 @@ void ProblemsPanel::check() {
         });
 }
 
+void ProblemsPanel::set_light_warning(const QString& text) {
+    if (text != light_warning_) {
+        light_warning_ = text;
+        fill(std::vector<Problem>(found_));
+    }
+}
+
 void ProblemsPanel::fill(const std::vector<Problem>& found) {
+    found_ = found;
     std::vector<Problem> all = document_.problems();
     for (const Problem& problem : found) {
         if (std::find(all.begin(), all.end(), problem) == all.end()) {
@@ -94,6 +102,13 @@ void ProblemsPanel::fill(const std::vector<Problem>& found) {
             row->setToolTip(column, row->text(column));
         }
         rows.push_back(row);
+    }
+    if (!light_warning_.isEmpty()) {
+        auto* row = new QTreeWidgetItem({tr("Light"), light_warning_});
+        row->setIcon(0, tinted_icon(QStringLiteral("warning")));
+        row->setToolTip(1, light_warning_);
+        rows.push_back(row);
+        ++warnings;
     }
     if (rows.isEmpty()) {
         auto* row = new QTreeWidgetItem({tr("No problems found")});

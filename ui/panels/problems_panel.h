@@ -13,6 +13,8 @@ class ProblemsPanel : public QTreeWidget {
     Q_OBJECT
 public:
     explicit ProblemsPanel(Document& document, QWidget* parent = nullptr);
+    /// What is to be said about the light that is shown; empty: nothing.
+    void set_light_warning(const QString& text);
 
 Q_SIGNALS:
     void activated_node(atrium::NodeId id);
@@ -24,6 +26,8 @@ private:
 
     Document& document_;
     QTimer delay_;
+    std::vector<Problem> found_;
+    QString light_warning_;
     bool checking_ = false;
 };
 

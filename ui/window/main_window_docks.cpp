@@ -64,6 +64,10 @@ void MainWindow::make_docks() {
         }
     });
 
+    connect(engine_, &EngineLink::solution_changed, problems, [this, problems] {
+        const auto solution = engine_->solution();
+        problems->set_light_warning(solution ? lowered_by_memory_text(solution->statistics) : QString());
+    });
     connect(jobs, &JobsPanel::message, this, &MainWindow::say);
     connect(tree_, &SceneTreePanel::activated, this, [this] { viewport_->frame_selection(); });
     connect(tree_, &SceneTreePanel::message, this, &MainWindow::say);

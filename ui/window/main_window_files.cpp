@@ -1,4 +1,5 @@
 // The window's wiring of files: commands, recent files, closing, what is dropped onto it, pictures.
+#include "engine/solver/memory_budget.h"
 #include "ui/actions/actions.h"
 #include "ui/actions/edit_controller.h"
 #include "ui/viewport/viewport_widget.h"
@@ -42,6 +43,16 @@ QString dropped_file(const QMimeData* data, std::initializer_list<const char*> s
 QString dropped_scene(const QMimeData* data) { return dropped_file(data, {".gltf", ".glb", ".atrium"}); }
 QString dropped_photometry(const QMimeData* data) { return dropped_file(data, {".ies", ".ldt"}); }
 
+// Other memory is for the light that comes next; light that had too little is made anew with more.
+void take_memory_budget(EngineLink& engine) {
+    const std::size_t before = memory_budget();
+    set_memory_budget(std::size_t(Settings().memory_mib()) << 20U);
+    const auto solution = engine.solution();
+    if (memory_budget() > before && solution && !lowered_by_memory(solution->statistics.features).empty()) {
+        engine.load(nullptr);
+    }
+}
+
 } // namespace
 
 void MainWindow::connect_files() {
@@ -54,11 +65,14 @@ void MainWindow::connect_files() {
     on(ActionId::RecoveredWork, [this] { files_->show_recovered(); });
     on(ActionId::FindImages, [this] { files_->ask_and_find_textures(); });
     recovery_->set_limits(1000 * Settings().autosave_seconds(), kAutosaveEdits);
+    set_memory_budget(std::size_t(Settings().memory_mib()) << 20U);
     on(ActionId::Preferences, [this] {
         auto* dialog = new PreferencesDialog(this);
         dialog->setAttribute(Qt::WA_DeleteOnClose);
-        connect(dialog, &PreferencesDialog::stored, this,
-                [this] { recovery_->set_limits(1000 * Settings().autosave_seconds(), kAutosaveEdits); });
+        connect(dialog, &PreferencesDialog::stored, this, [this] {
+            recovery_->set_limits(1000 * Settings().autosave_seconds(), kAutosaveEdits);
+            take_memory_budget(*engine_);
+        });
         dialog->open();
     });
     on(ActionId::ExportGltf, [this] { files_->ask_and_export_gltf(); });

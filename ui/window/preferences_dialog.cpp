@@ -1,5 +1,6 @@
 #include "ui/window/preferences_dialog.h"
 
+#include "engine/solver/memory_budget.h"
 #include "ui/window/settings.h"
 #include "ui/window/translation.h"
 
@@ -7,6 +8,7 @@
 #include <QDialogButtonBox>
 #include <QFormLayout>
 #include <QLabel>
+#include <QLocale>
 #include <QVBoxLayout>
 
 namespace atrium::ui {
@@ -43,6 +45,21 @@ PreferencesDialog::PreferencesDialog(QWidget* parent) : QDialog(parent) {
     }
     autosave_->setCurrentIndex(std::max(0, autosave_->findData(settings.autosave_seconds())));
     form->addRow(tr("Keep &unsaved work:"), autosave_);
+    memory_ = new QComboBox;
+    memory_->setObjectName(QStringLiteral("memory"));
+    memory_->setToolTip(tr("Light that would take more gets coarser. The Light panel says so."));
+    const QLocale locale;
+    const auto size_text = [&](qint64 mib) { return locale.formattedDataSize(mib << 20, mib < 1024 ? 0 : 1); };
+    const auto half = qint64(default_memory_budget() >> 20U);
+    memory_->addItem(tr("Half of this computer's (%1)").arg(size_text(half)), 0);
+    for (int mib = 256; mib < 2 * half; mib *= 2) {
+        memory_->addItem(size_text(mib), mib);
+    }
+    if (const int mib = settings.memory_mib(); memory_->findData(mib) < 0) { // set by hand, or on a larger machine
+        memory_->addItem(size_text(mib), mib);
+    }
+    memory_->setCurrentIndex(memory_->findData(settings.memory_mib()));
+    form->addRow(tr("&Memory for light:"), memory_);
     layout->addLayout(form);
     auto* hint = new QLabel(tr("Another language shows when Atrium is started again."));
     hint->setEnabled(false);
@@ -59,6 +76,7 @@ void PreferencesDialog::store() {
     settings.set_appearance(appearance_of(appearance_->currentData().toString()));
     apply_appearance(settings.appearance());
     settings.set_autosave_seconds(autosave_->currentData().toInt());
+    settings.set_memory_mib(memory_->currentData().toInt());
     accept();
     Q_EMIT stored();
 }

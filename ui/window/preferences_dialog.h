@@ -21,6 +21,7 @@ private:
     QComboBox* language_;
     QComboBox* appearance_;
     QComboBox* autosave_;
+    QComboBox* memory_;
 };
 
 } // namespace atrium::ui

@@ -17,6 +17,7 @@ constexpr int kShortestAutosave = 10;
 constexpr int kLongestAutosave = 120;
 const QString kLanguage = QStringLiteral("program/language");
 const QString kAutosave = QStringLiteral("program/autosave_seconds");
+const QString kMemory = QStringLiteral("program/memory_mib");
 const QString kGeometry = QStringLiteral("window/geometry");
 const QString kLayout = QStringLiteral("window/layout1"); // the number rises when the docks change
 const QString kRecent = QStringLiteral("files/recent");
@@ -186,6 +187,13 @@ int Settings::autosave_seconds() const {
     return std::clamp(QSettings().value(kAutosave, kAutosaveSeconds).toInt(), kShortestAutosave, kLongestAutosave);
 }
 void Settings::set_autosave_seconds(int seconds) { QSettings().setValue(kAutosave, seconds); }
+
+int Settings::memory_mib() const {
+    constexpr int kLeast = 64, kMost = 1 << 24;
+    const int mib = QSettings().value(kMemory, 0).toInt();
+    return mib > 0 ? std::clamp(mib, kLeast, kMost) : 0;
+}
+void Settings::set_memory_mib(int mib) { QSettings().setValue(kMemory, mib); }
 
 bool Settings::contours() const { return QSettings().value(kContours, false).toBool(); }
 void Settings::set_contours(bool on) { QSettings().setValue(kContours, on); }

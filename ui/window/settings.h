@@ -56,6 +56,8 @@ public:
     void set_appearance(Appearance appearance);
     [[nodiscard]] int autosave_seconds() const; ///< after a change, 10 to 120
     void set_autosave_seconds(int seconds);
+    [[nodiscard]] int memory_mib() const; ///< that light may take; 0 = half of the machine's
+    void set_memory_mib(int mib);
     [[nodiscard]] bool contours() const;
     void set_contours(bool on);
 };
