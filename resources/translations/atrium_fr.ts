@@ -72,8 +72,8 @@
         <translation>Préfére&amp;nces...</translation>
     </message>
     <message>
-        <source>Language, and how often unsaved work is kept</source>
-        <translation>Langue, et fréquence de sauvegarde du travail non enregistré</translation>
+        <source>Language, colours, memory for light, and how often unsaved work is kept</source>
+        <translation>Langue, couleurs, mémoire pour la lumière, et fréquence de sauvegarde du travail non enregistré</translation>
     </message>
     <message>
         <source>Export &amp;glTF...</source>

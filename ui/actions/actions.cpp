@@ -23,7 +23,7 @@ const std::array kTable = {
     ActionInfo{ActionId::Revert, "revert", ATRIUM_TEXT("Re&vert..."), "", "", ATRIUM_TEXT("Go back to the file as it was saved; what was changed since is put aside")},
     ActionInfo{ActionId::RecoveredWork, "recovered_work", ATRIUM_TEXT("Recovered &Work..."), "", "", ATRIUM_TEXT("Look at work that was not saved: kept after a crash, reverted or discarded")},
     ActionInfo{ActionId::FindImages, "find_images", ATRIUM_TEXT("&Find Missing Images..."), "", "", ATRIUM_TEXT("Look for the images of materials that were not where the file says")},
-    ActionInfo{ActionId::Preferences, "preferences", ATRIUM_TEXT("Prefere&nces..."), "Ctrl+,", "", ATRIUM_TEXT("Language, and how often unsaved work is kept")},
+    ActionInfo{ActionId::Preferences, "preferences", ATRIUM_TEXT("Prefere&nces..."), "Ctrl+,", "", ATRIUM_TEXT("Language, colours, memory for light, and how often unsaved work is kept")},
     ActionInfo{ActionId::ExportGltf, "export_gltf", ATRIUM_TEXT("Export &glTF..."), "Ctrl+E", "", ATRIUM_TEXT("Write the scene as a glTF file for other programs")},
     ActionInfo{ActionId::ExportPicture, "export_picture", ATRIUM_TEXT("Export &Picture..."), "Ctrl+P", "picture", ATRIUM_TEXT("Render the present view to a PNG or EXR file")},
     ActionInfo{ActionId::Quit, "quit", ATRIUM_TEXT("&Quit"), "Ctrl+Q", "", ATRIUM_TEXT("Close Atrium")},
